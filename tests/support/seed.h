@@ -1,0 +1,16 @@
+#pragma once
+// Statistical tests draw a fresh seed each run, so that no luck of one seed is kept for ever; a failure
+// prints it.
+
+#include <cstdint>
+#include <string>
+
+namespace candela::test {
+
+/// A new seed per run (the same within one process), or the one in the environment's CANDELA_TEST_SEED.
+std::uint64_t fresh_seed();
+
+/// "replay with CANDELA_TEST_SEED=…", for SCOPED_TRACE.
+std::string seed_note();
+
+} // namespace candela::test
