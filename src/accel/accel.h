@@ -1,0 +1,117 @@
+#pragma once
+// The acceleration structure: what a ray meets first, and whether it meets anything at all.
+//
+// One bounding volume hierarchy over triangles, spheres, discs and instances of other hierarchies. It knows
+// geometry only: no materials, normals or textures. The caller gets which primitive was hit, at which t and
+// at which barycentrics, and computes the rest from its own data.
+//
+// Triangles are watertight: a ray that passes exactly through an edge or a vertex that triangles share hits
+// at least one of them. The closest hit, the any-hit answer and the tree are the same for any number of
+// threads and for any SIMD instruction set.
+
+#include "core/bounds.h"
+#include "core/ray.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace candela {
+
+enum class PrimitiveKind : std::uint32_t { triangle, sphere, disc };
+
+/// A full sphere, hit from outside and from inside. World space.
+struct SphereGeometry {
+  vec3 center{0};
+  float radius = 1;
+};
+
+/// A flat disc, hit from both sides. World space; the normal is of unit length.
+struct DiscGeometry {
+  vec3 center{0};
+  float radius = 1;
+  vec3 normal{0, 0, 1};
+};
+
+class Accel;
+
+/// A placed copy of an object. The object holds primitives but no instances of its own, is built before and
+/// outlives whatever is built from it. The matrix is affine and invertible (a singular one is skipped).
+struct InstanceGeometry {
+  const Accel* object = nullptr;
+  mat4 world_from_object{1};
+};
+
+/// What to build from. Nothing is referenced after the build but the objects of instances.
+struct AccelInput {
+  std::span<const vec3> vertices;
+  std::span<const uvec3> triangles; ///< three indices into vertices each
+  std::span<const SphereGeometry> spheres;
+  std::span<const DiscGeometry> discs;
+  std::span<const InstanceGeometry> instances;
+};
+
+inline constexpr std::uint32_t kNoInstance = 0xffffffffu;
+
+struct Hit {
+  float t = kInfinity;
+  /// Barycentric weights of vertices 1 and 2 (vertex 0 has 1 - u - v) for triangles; 0 otherwise.
+  float u = 0, v = 0;
+  std::uint32_t primitive = 0; ///< index into the input array of its kind (the object's, if instanced)
+  std::uint32_t instance = kNoInstance; ///< index into AccelInput::instances
+  PrimitiveKind kind = PrimitiveKind::triangle;
+};
+
+enum class BuildQuality {
+  fast, ///< coarser bins and a greedy collapse: for scenes under edit
+  high, ///< the wide tree of least expected cost
+};
+
+struct AccelStats {
+  std::size_t triangles = 0, spheres = 0, discs = 0, instances = 0; ///< in the tree
+  /// Left out: a vertex that is not finite or out of range, no area, a radius that is not positive, a
+  /// singular matrix, an empty object.
+  std::size_t skipped = 0;
+  std::size_t nodes = 0;  ///< of up to 8 children
+  std::size_t leaves = 0; ///< of up to 8 primitives of one kind
+  int depth = 0;          ///< nodes on the longest way from the root to a leaf
+  /// Expected cost of a random line through the bounds, in node visits (surface area heuristic; Goldsmith and
+  /// Salmon 1987), as the traversal costs are weighed in the builder.
+  double sah_cost = 0;
+  std::size_t bytes = 0; ///< without the objects of instances
+};
+
+struct AccelTree;
+
+/// Const after the build; any number of threads may trace at once. Movable; an empty one meets nothing.
+class Accel {
+public:
+  Accel();
+  ~Accel();
+  Accel(Accel&&) noexcept;
+  Accel& operator=(Accel&&) noexcept;
+
+  /// Uses the threads that OpenMP gives it; the tree does not depend on their number. Throws Error
+  /// (ExitCode::limit) above 2^28 primitives or for nested instances.
+  static Accel build(const AccelInput& input, BuildQuality quality = BuildQuality::high);
+
+  /// The closest hit with t in (t_min, t_max), or nothing. A negative t_min counts as 0. The direction is of
+  /// any length that is neither 0 nor close to the limits of float (1e-18 to 1e18); rays with NaN meet
+  /// nothing or something, but end.
+  std::optional<Hit> intersect(const Ray& ray) const;
+  /// Whether there is any hit with t in (t_min, t_max): exactly when intersect finds one.
+  bool occluded(const Ray& ray) const;
+
+  Bounds3 bounds() const; ///< of what is in the tree; empty if nothing is
+  std::size_t memory_bytes() const;
+  AccelStats stats() const;
+
+private:
+  explicit Accel(std::unique_ptr<const AccelTree> tree);
+  std::unique_ptr<const AccelTree> tree_;
+  friend struct AccelAccess;
+};
+
+} // namespace candela
