@@ -1,0 +1,60 @@
+#pragma once
+// What every scattering model offers.
+//
+// Directions are unit vectors in the local frame whose +z is the shading normal, and both point away from the
+// surface. Reflecting models are two-sided: below the surface (wo.z < 0) they act as above it, mirrored.
+
+#include "core/math.h"
+
+#include <concepts>
+#include <optional>
+
+namespace candela {
+
+struct BsdfSample {
+  vec3 wi;
+  /// f(wo, wi) |cos theta_i| / pdf, with every probability of the choice in it (the lobe's, too).
+  vec3 weight;
+  /// Of a non-delta lobe: density of wi in 1/sr, as BsdfModel::pdf gives it. Of a delta lobe: the probability
+  /// of having chosen it (no density; do not combine it by MIS).
+  float pdf;
+  bool delta;
+  /// Refractive index on wi's side over that on wo's side; 1 for reflection. The weight of a refraction has 1
+  /// / eta^2 in it, which Russian roulette should divide out again.
+  float eta = 1;
+};
+
+struct BsdfEval {
+  vec3 f_cos; ///< f(wo, wi) |cos theta_i|, 1/sr
+  float pdf;  ///< 1/sr
+};
+
+/// - eval: f(wo, wi) |cos theta_i| in 1/sr of the part without delta lobes.
+/// - pdf: density in 1/sr with which sample() gives wi by a lobe without delta. Over the sphere it integrates
+/// to 1 -
+///   delta_probability(wo) less the probability that sample() fails.
+/// - eval_pdf: both at once.
+/// - sample: u in [0, 1)^3; u.z chooses the lobe, and a delta lobe exactly where u.z < delta_probability(wo);
+/// u.xy
+///   chooses the direction. Nothing where the sample carries no light (absorbed, or a direction below the
+///   surface): it counts as a sample of value 0.
+/// - delta_probability: with which sample() takes a delta lobe (0: there is none, 1: there is nothing else).
+/// - albedo: rough reflectance, for the albedo view only.
+template <class B>
+concept BsdfModel = requires(const B& b, vec3 wo, vec3 wi, vec3 u) {
+  { b.eval(wo, wi) } -> std::same_as<vec3>;
+  { b.pdf(wo, wi) } -> std::same_as<float>;
+  { b.eval_pdf(wo, wi) } -> std::same_as<BsdfEval>;
+  { b.sample(wo, u) } -> std::same_as<std::optional<BsdfSample>>;
+  { b.delta_probability(wo) } -> std::same_as<float>;
+  { b.albedo() } -> std::same_as<vec3>;
+};
+
+/// Both on the same side of the surface, and neither in it.
+inline bool same_hemisphere(vec3 wo, vec3 wi) { return wo.z * wi.z > 0; }
+/// The mirror image of wo about the normal.
+inline vec3 reflect_about_normal(vec3 wo) { return {-wo.x, -wo.y, wo.z}; }
+/// w with its z mirrored to the side of the surface on which `side` lies.
+inline vec3 to_side_of(vec3 side, vec3 w) { return {w.x, w.y, std::copysign(w.z, side.z)}; }
+
+} // namespace candela

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "bsdf/bsdf_sample.h"
+#include "bsdf/fresnel.h"
+
+namespace candela {
+
+/// Smooth interface between two dielectrics, such as glass: reflects by the Fresnel equations and refracts
+/// the rest. The shading normal points outside, so wo.z < 0 is inside. Both lobes are delta, chosen by the
+/// reflectance.
+struct Dielectric {
+  float ior = 1.5f;      ///< refractive index inside over outside
+  vec3 transmittance{1}; ///< tint of each crossing
+
+  vec3 eval(vec3, vec3) const { return vec3(0); }
+  float pdf(vec3, vec3) const { return 0; }
+  BsdfEval eval_pdf(vec3, vec3) const { return {vec3(0), 0}; }
+
+  std::optional<BsdfSample> sample(vec3 wo, vec3 u) const {
+    float eta = wo.z > 0 ? ior : 1 / ior;
+    std::optional<vec3> wi = refract(wo, eta);
+    float reflectance = wi ? fresnel_dielectric(std::abs(wo.z), eta) : 1;
+    if (u.z < reflectance) return BsdfSample{reflect_about_normal(wo), vec3(1), reflectance, true};
+    if (is_black(transmittance)) return std::nullopt;
+    // Radiance over the squared refractive index is what a refraction preserves: a beam that enters the
+    // denser side is squeezed into a smaller solid angle (Veach 1997, section 5.2). wi is where the light
+    // comes from.
+    return BsdfSample{*wi, transmittance / sqr(eta), 1 - reflectance, true, eta};
+  }
+  float delta_probability(vec3) const { return 1; }
+  vec3 albedo() const {
+    float f0 = fresnel_dielectric(1, ior);
+    return vec3(f0) + (1 - f0) * transmittance;
+  }
+};
+
+} // namespace candela

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "bsdf/bsdf_sample.h"
+#include "sampling/warp.h"
+
+namespace candela {
+
+/// Lambertian reflection: f = reflectance / pi.
+struct Diffuse {
+  vec3 reflectance{0.5f};
+
+  vec3 eval(vec3 wo, vec3 wi) const {
+    return same_hemisphere(wo, wi) ? reflectance * (std::abs(wi.z) * kInvPi) : vec3(0);
+  }
+  float pdf(vec3 wo, vec3 wi) const { return same_hemisphere(wo, wi) ? std::abs(wi.z) * kInvPi : 0; }
+  BsdfEval eval_pdf(vec3 wo, vec3 wi) const {
+    float cosine_pdf = pdf(wo, wi);
+    return {reflectance * cosine_pdf, cosine_pdf};
+  }
+  std::optional<BsdfSample> sample(vec3 wo, vec3 u) const {
+    vec3 wi = to_side_of(wo, sample_cosine_hemisphere({u.x, u.y}));
+    float cosine_pdf = pdf(wo, wi);
+    if (!(cosine_pdf > 0) || is_black(reflectance)) return std::nullopt;
+    return BsdfSample{wi, reflectance, cosine_pdf, false};
+  }
+  float delta_probability(vec3) const { return 0; }
+  vec3 albedo() const { return reflectance; }
+};
+
+} // namespace candela

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "bsdf/bsdf_sample.h"
+#include "core/color.h"
+#include "sampling/warp.h"
+
+namespace candela {
+
+/// Ideal mirror, with a Lambertian lobe beside it where `diffuse` is not 0; the lobe is chosen by luminance.
+struct Mirror {
+  vec3 specular{0.9f};
+  vec3 diffuse{0};
+
+  vec3 eval(vec3 wo, vec3 wi) const {
+    return same_hemisphere(wo, wi) ? diffuse * (std::abs(wi.z) * kInvPi) : vec3(0);
+  }
+  float pdf(vec3 wo, vec3 wi) const {
+    return same_hemisphere(wo, wi) ? (1 - delta_probability(wo)) * std::abs(wi.z) * kInvPi : 0;
+  }
+  BsdfEval eval_pdf(vec3 wo, vec3 wi) const { return {eval(wo, wi), pdf(wo, wi)}; }
+
+  std::optional<BsdfSample> sample(vec3 wo, vec3 u) const {
+    float p = delta_probability(wo);
+    if (u.z < p) {
+      if (is_black(specular)) return std::nullopt;
+      return BsdfSample{reflect_about_normal(wo), specular / p, p, true};
+    }
+    vec3 wi = to_side_of(wo, sample_cosine_hemisphere({u.x, u.y}));
+    float density = pdf(wo, wi);
+    if (!(density > 0)) return std::nullopt;
+    return BsdfSample{wi, diffuse / (1 - p), density, false};
+  }
+  /// 1 where there is no diffuse lobe, even if all is black.
+  float delta_probability(vec3) const {
+    float d = luminance(diffuse);
+    return d > 0 ? luminance(specular) / (luminance(specular) + d) : 1;
+  }
+  vec3 albedo() const { return specular + diffuse; }
+};
+
+} // namespace candela

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "bsdf/bsdf_sample.h"
+#include "core/color.h"
+#include "core/frame.h"
+#include "sampling/warp.h"
+
+namespace candela {
+
+/// The modified Phong model of Lafortune & Willems 1994, "Using the Modified Phong Reflectance Model for
+/// Physically Based Rendering": reciprocal, and it reflects no more than it gets where diffuse + specular
+/// <= 1.
+///     f = diffuse / pi + specular (n + 2) / (2 pi) max(0, cos alpha)^n,
+/// with alpha between wi and the mirror image of wo. Sampled as a mixture of its lobes (their pdf is the
+/// mixture's) that are chosen by luminance; the glossy lobe's directions below the surface fail.
+struct Phong {
+  vec3 diffuse{0.5f};
+  vec3 specular{0};
+  float exponent = 40; ///< n >= 0
+
+  vec3 eval(vec3 wo, vec3 wi) const { return eval_pdf(wo, wi).f_cos; }
+  float pdf(vec3 wo, vec3 wi) const { return eval_pdf(wo, wi).pdf; }
+
+  BsdfEval eval_pdf(vec3 wo, vec3 wi) const {
+    if (!same_hemisphere(wo, wi)) return {vec3(0), 0};
+    float cos_alpha = std::max(glm::dot(reflect_about_normal(wo), wi), 0.0f);
+    float lobe = std::pow(std::min(cos_alpha, 1.0f), exponent) * (0.5f * kInvPi);
+    float cos_theta_i = std::abs(wi.z);
+    float p = specular_probability();
+    vec3 f = diffuse * kInvPi + specular * ((exponent + 2) * lobe);
+    return {f * cos_theta_i, (1 - p) * cos_theta_i * kInvPi + p * (exponent + 1) * lobe};
+  }
+
+  std::optional<BsdfSample> sample(vec3 wo, vec3 u) const {
+    vec3 wi;
+    if (u.z < specular_probability()) {
+      // cos alpha = (1 - v)^(1 / (n + 1)) with v = |disc point|^2 uniform.
+      vec2 d = sample_uniform_disc({u.x, u.y});
+      float v = std::min(glm::dot(d, d), kOneMinusEpsilon);
+      float one_minus_cos = -std::expm1(std::log1p(-v) / (exponent + 1));
+      float scale = v > 0 ? safe_sqrt(one_minus_cos * (2 - one_minus_cos) / v) : 0;
+      wi = Frame::from_normal(reflect_about_normal(wo)).to_world({d * scale, 1 - one_minus_cos});
+    } else {
+      wi = to_side_of(wo, sample_cosine_hemisphere({u.x, u.y}));
+    }
+    BsdfEval e = eval_pdf(wo, wi);
+    if (!(e.pdf > 0) || is_black(e.f_cos)) return std::nullopt;
+    return BsdfSample{wi, e.f_cos / e.pdf, e.pdf, false};
+  }
+
+  float delta_probability(vec3) const { return 0; }
+  vec3 albedo() const { return diffuse + specular; }
+
+  /// Of the glossy lobe's being sampled.
+  float specular_probability() const {
+    float d = luminance(diffuse), s = luminance(specular);
+    return s > 0 ? s / (d + s) : 0;
+  }
+};
+
+} // namespace candela

@@ -1,0 +1,182 @@
+#pragma once
+// The random numbers of a render. There is no state to advance: each is a function of (seed, pixel, sample,
+// bounce, dimension, index), so that any path can be traced again alone, and threads, tiles and order cannot
+// matter.
+
+#include "core/hash.h"
+#include "core/math.h"
+#include "sampling/sampler_type.h"
+
+#include <bit>
+
+namespace candela {
+
+/// What a number is for; two draws at one bounce must differ in this or in their index.
+enum class Dimension : std::uint32_t {
+  film,             ///< position within the pixel's filter
+  lens,             ///< position on the aperture
+  light_choice,     ///< which light next-event estimation asks
+  light_position,   ///< where on it
+  bsdf_lobe,        ///< which lobe scatters
+  bsdf_direction,   ///< where to
+  russian_roulette, ///< whether the path goes on
+  opacity,          ///< whether light meets a partly transparent surface
+  count
+};
+
+/// Elementary intervals of base 2 stay intact: bit k of the result depends on bits 0..k of x only, and flips
+/// at random with them. Between two bit reversals this is Owen's nested uniform scrambling (Laine & Karras
+/// 2011, "Stratified Sampling for Stochastic Transparency"; constants by Vegdahl 2021, "Building a Better LK
+/// Hash").
+constexpr std::uint32_t laine_karras(std::uint32_t x, std::uint32_t seed) {
+  x ^= x * 0x3d20adeau;
+  x += seed;
+  x *= (seed >> 16) | 1;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return x;
+}
+
+constexpr std::uint32_t reverse_bits(std::uint32_t x) {
+  x = __builtin_bswap32(x);
+  x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+  x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+  x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+  return x;
+}
+
+/// The second Sobol' dimension with its bits reversed (the first one is `index` itself). Its generator matrix
+/// is Pascal's triangle mod 2, and by Lucas' theorem C(k, j) is odd exactly where the bits of j are a subset
+/// of k's: a sum over supersets of bit positions, which factors into five butterfly steps.
+constexpr std::uint32_t sobol_second_reversed(std::uint32_t index) {
+  index ^= (index >> 1) & 0x55555555u;
+  index ^= (index >> 2) & 0x33333333u;
+  index ^= (index >> 4) & 0x0f0f0f0fu;
+  index ^= (index >> 8) & 0x00ff00ffu;
+  index ^= index >> 16;
+  return index;
+}
+
+/// Position of `index` in a pseudo-random permutation of 0..length-1 that `key` chooses; index < length.
+/// Cycle walking over an invertible hash of the next power of two (Kensler 2013, "Correlated Multi-Jittered
+/// Sampling", section 3, has the idea).
+constexpr std::uint32_t permute(std::uint32_t index, std::uint32_t length, std::uint64_t key) {
+  if (length <= 1) return 0;
+  int bits = std::bit_width(length - 1);
+  int shift = (bits + 1) / 2; // xor-shifts by this move high bits down, multiplications move low bits up
+  std::uint32_t mask = bits == 32 ? ~0u : (1u << bits) - 1;
+  do {
+    std::uint64_t round_key = key;
+    for (int round = 0; round < 4; ++round) {
+      index = (index + static_cast<std::uint32_t>(round_key >> 32)) & mask;
+      index = (index * (static_cast<std::uint32_t>(round_key) | 1)) & mask;
+      index ^= index >> shift;
+      round_key = round_key * 0xd1342543de82ef95ull + 0x9e3779b97f4a7c15ull;
+    }
+    index = (index + static_cast<std::uint32_t>(round_key >> 32)) & mask;
+  } while (index >= length);
+  return index;
+}
+
+/// Every value is in [0, 1). Pixels, bounces, dimensions and indices are independent of each other; within
+/// one of them the samples 0, 1, 2, … of a pixel are spread as the type says, and any number of them may be
+/// used:
+/// - stratified: each run of strata^2 samples has one in every cell of a strata x strata grid (of strata^2
+///   intervals in 1-D), in an order of its own (jittered).
+/// - sobol: each aligned run of 2^m samples is a (0, m, 2)-net in base 2 (a (0, m, 1)-net in 1-D): one point
+/// in
+///   every elementary interval of area 2^-m (Burley 2020, "Practical Hash-based Owen Scrambling": padded 2-D
+///   sequences with a nested uniform shuffle of the index).
+class Sampler {
+public:
+  /// `strata` is a side of the stratified sampler's grid, in [1, 65535].
+  Sampler(SamplerType type, std::uint64_t seed, int strata = 4)
+      : type_(type), strata_(static_cast<std::uint32_t>(strata)), seed_(hash_combine(0, seed)) {
+    start({0, 0}, 0);
+  }
+
+  /// Goes to a pixel's sample, at bounce 0.
+  void start(uvec2 pixel, std::uint32_t sample) {
+    pixel_key_ = hash_combine(seed_, (static_cast<std::uint64_t>(pixel.y) << 32) | pixel.x);
+    sample_ = sample;
+    if (type_ == SamplerType::independent) {
+      pixel_key_ = hash_combine(pixel_key_, sample);
+    } else if (type_ == SamplerType::sobol) {
+      reversed_sample_ = reverse_bits(sample);
+    } else {
+      std::uint32_t cells = strata_ * strata_;
+      block_ = sample / cells;
+      sample_in_block_ = sample % cells;
+    }
+    set_bounce(0);
+  }
+  void set_bounce(std::uint32_t bounce) { bounce_key_ = hash_combine(pixel_key_, bounce); }
+
+  /// The `index`-th of repeated draws for one purpose (several light samples at a vertex).
+  float get_1d(Dimension dimension, std::uint32_t index = 0) const {
+    std::uint64_t h = hash(dimension, index, 0x1d);
+    switch (type_) {
+    case SamplerType::sobol:
+      // The first Sobol' dimension is the reversed index, so the reversals before the scramble cancel.
+      return to_unit_float(reverse_bits(laine_karras(shuffled_index(h), high(h))));
+    case SamplerType::stratified: {
+      std::uint64_t block_key = hash_combine(h, block_);
+      std::uint64_t jitter = hash_combine(h, (1ull << 32) | sample_);
+      std::uint32_t cells = strata_ * strata_;
+      std::uint32_t cell = permute(sample_in_block_, cells, block_key);
+      return in_cell(cell, cells, high(jitter));
+    }
+    case SamplerType::independent: break;
+    }
+    return to_unit_float(high(h));
+  }
+
+  vec2 get_2d(Dimension dimension, std::uint32_t index = 0) const {
+    std::uint64_t h = hash(dimension, index, 0x2d);
+    switch (type_) {
+    case SamplerType::sobol: {
+      std::uint32_t i = shuffled_index(h);
+      std::uint32_t x = laine_karras(i, high(h));
+      std::uint32_t y = laine_karras(sobol_second_reversed(i), low(h * 0x9e3779b97f4a7c15ull >> 32));
+      return {to_unit_float(reverse_bits(x)), to_unit_float(reverse_bits(y))};
+    }
+    case SamplerType::stratified: {
+      std::uint64_t block_key = hash_combine(h, block_);
+      std::uint64_t jitter = hash_combine(h, (1ull << 32) | sample_);
+      std::uint32_t cell = permute(sample_in_block_, strata_ * strata_, block_key);
+      return {in_cell(cell % strata_, strata_, high(jitter)), in_cell(cell / strata_, strata_, low(jitter))};
+    }
+    case SamplerType::independent: break;
+    }
+    return {to_unit_float(high(h)), to_unit_float(low(h))};
+  }
+
+private:
+  static std::uint32_t high(std::uint64_t h) { return static_cast<std::uint32_t>(h >> 32); }
+  static std::uint32_t low(std::uint64_t h) { return static_cast<std::uint32_t>(h); }
+  /// (cell + jitter / 2^32) / cells, rounded down: floats would round some points into the next cell.
+  static float in_cell(std::uint32_t cell, std::uint32_t cells, std::uint32_t jitter) {
+    return to_unit_float(
+        static_cast<std::uint32_t>(((static_cast<std::uint64_t>(cell) << 32) | jitter) / cells));
+  }
+
+  /// `kind` keeps a 1-D and a 2-D draw for the same purpose apart.
+  std::uint64_t hash(Dimension dimension, std::uint32_t index, std::uint64_t kind) const {
+    return hash_combine(bounce_key_, (kind << 56) | (static_cast<std::uint64_t>(index) << 16) |
+                                         static_cast<std::uint64_t>(dimension));
+  }
+  /// Nested uniform shuffle of the sample number: aligned runs of 2^m stay together, and which of two halves
+  /// comes first is random, so that dimensions padded beside each other are not correlated.
+  std::uint32_t shuffled_index(std::uint64_t h) const {
+    return reverse_bits(laine_karras(reversed_sample_, low(h)));
+  }
+
+  SamplerType type_;
+  std::uint32_t strata_;
+  std::uint32_t sample_ = 0;
+  std::uint32_t reversed_sample_ = 0;                   ///< sobol
+  std::uint32_t block_ = 0, sample_in_block_ = 0;       ///< stratified
+  std::uint64_t seed_, pixel_key_ = 0, bounce_key_ = 0; ///< pixel_key_ has the sample in it if independent
+};
+
+} // namespace candela
