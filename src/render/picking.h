@@ -1,0 +1,22 @@
+#pragma once
+// One ray for the hand: what lies under a pixel.
+
+#include "scene/document.h"
+
+#include <optional>
+
+namespace candela {
+
+class RenderScene;
+
+struct Pick {
+  vec3 position{0};     ///< world space
+  float view_depth = 0; ///< distance along the view axis: what focus_distance means
+  int instance = -1;    ///< index into SceneDesc::instances
+  int material = -1;    ///< index into SceneDesc::materials
+};
+
+/// The first surface under the centre of a pixel (film coordinates in pixels, top-left origin).
+std::optional<Pick> pick(const RenderScene& scene, const Document& document, vec2 film_position);
+
+} // namespace candela

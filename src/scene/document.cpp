@@ -1,0 +1,128 @@
+#include "scene/document.h"
+
+#include <fmt/format.h>
+
+namespace candela {
+
+namespace {
+
+template <class T>
+bool same_value(const std::shared_ptr<const T>& a, const std::shared_ptr<const T>& b) {
+  return a == b || (a && b && *a == *b);
+}
+
+bool same_shape(const Shape& a, const Shape& b) {
+  const auto* mesh_a = std::get_if<std::shared_ptr<const Mesh>>(&a);
+  const auto* mesh_b = std::get_if<std::shared_ptr<const Mesh>>(&b);
+  return mesh_a && mesh_b ? same_value(*mesh_a, *mesh_b) : a == b;
+}
+
+/// Materials differ in ways that only shading sees, or in what the lights are made of.
+Invalidates compare_materials(const std::vector<Material>& a, const std::vector<Material>& b) {
+  if (a.size() != b.size()) return Invalidates::scene;
+  Invalidates worst = Invalidates::nothing;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] == b[i]) continue;
+    for (const auto& row : material_fields())
+      if (!field_equal(row, row.address(const_cast<Material&>(a[i])),
+                       row.address(const_cast<Material&>(b[i]))))
+        worst = std::max(worst, row.invalidates);
+    if (a[i].diffuse_texture != b[i].diffuse_texture) worst = std::max(worst, Invalidates::image);
+  }
+  return worst;
+}
+
+template <class T>
+std::string row_problem(std::span<const Field<T>> rows, const T& owner, std::string_view name) {
+  for (const auto& row : rows)
+    if (auto problem = field_problem(row, row.address(const_cast<T&>(owner))); !problem.empty())
+      return fmt::format("{}{}: {}; give {}", name, row.key, problem, field_domain(row));
+  return {};
+}
+
+std::string instance_problem(const SceneDesc& scene, const Instance& instance, std::size_t index) {
+  std::size_t slots = 1;
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
+    if (!*mesh) return fmt::format("instances[{}]: has no mesh", index);
+    slots = (*mesh)->slot_names.size();
+    for (const uvec3& t : (*mesh)->triangles)
+      if (std::max({t.x, t.y, t.z}) >= (*mesh)->positions.size())
+        return fmt::format("instances[{}].mesh: a vertex index is out of range", index);
+    for (std::uint32_t slot : (*mesh)->material_slots)
+      if (slot >= slots) return fmt::format("instances[{}].mesh: a material slot is out of range", index);
+  } else if (const auto* sphere = std::get_if<SphereShape>(&instance.shape);
+             sphere && !(sphere->radius > 0 && std::isfinite(sphere->radius))) {
+    return fmt::format("instances[{}].radius: {} is not a positive number", index, sphere->radius);
+  }
+  if (instance.materials.size() != slots)
+    return fmt::format("instances[{}].materials: {} given for {} slots", index, instance.materials.size(),
+                       slots);
+  for (int material : instance.materials)
+    if (material < 0 || static_cast<std::size_t>(material) >= scene.materials.size())
+      return fmt::format("instances[{}].materials: there is no material {}", index, material);
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 4; ++r)
+      if (!std::isfinite(instance.world_from_object[c][r]))
+        return fmt::format("instances[{}].transform: is not finite", index);
+  return {};
+}
+
+} // namespace
+
+Invalidates compare_documents(const Document& before, const Document& after) {
+  Invalidates worst = Invalidates::nothing;
+  for (const auto& row : settings_table())
+    if (!field_equal(row, row.address(const_cast<Document&>(before)),
+                     row.address(const_cast<Document&>(after))))
+      worst = std::max(worst, row.invalidates);
+  if (before.scene.lights != after.scene.lights || before.scene.instances != after.scene.instances ||
+      before.scene.textures != after.scene.textures)
+    return Invalidates::scene;
+  return std::max(worst, compare_materials(before.scene.materials, after.scene.materials));
+}
+
+bool same_content(const Document& a, const Document& b) {
+  const SceneDesc &s = a.scene, &t = b.scene;
+  if (a.settings != b.settings || s.camera != t.camera || s.materials != t.materials ||
+      s.lights != t.lights || s.instances.size() != t.instances.size() ||
+      s.textures.size() != t.textures.size())
+    return false;
+  for (std::size_t i = 0; i < s.textures.size(); ++i)
+    if (!same_value(s.textures[i], t.textures[i])) return false;
+  for (std::size_t i = 0; i < s.instances.size(); ++i) {
+    const Instance &x = s.instances[i], &y = t.instances[i];
+    if (x.name != y.name || x.world_from_object != y.world_from_object || x.materials != y.materials ||
+        !same_shape(x.shape, y.shape))
+      return false;
+  }
+  return true;
+}
+
+std::string document_problem(const Document& document) {
+  if (auto problem = row_problem(settings_table(), document, ""); !problem.empty()) return problem;
+  const SceneDesc& scene = document.scene;
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = scene.materials[i];
+    if (auto p = row_problem(material_fields(), material, fmt::format("materials[{}].", i)); !p.empty())
+      return p;
+    if (material.diffuse_texture < -1 || material.diffuse_texture >= static_cast<int>(scene.textures.size()))
+      return fmt::format("materials[{}].diffuse_texture: there is no texture {}", i,
+                         material.diffuse_texture);
+  }
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const LightDesc& light = scene.lights[i];
+    if (auto p = row_problem(light_fields(), light, fmt::format("lights[{}].", i)); !p.empty()) return p;
+    if (light.type == LightType::directional && glm::length(light.direction) == 0)
+      return fmt::format("lights[{}].direction: is zero", i);
+  }
+  for (std::size_t i = 0; i < scene.instances.size(); ++i)
+    if (auto p = instance_problem(scene, scene.instances[i], i); !p.empty()) return p;
+  const Camera& camera = scene.camera;
+  vec3 forward = camera.target - camera.position;
+  if (!(glm::length(forward) > 0)) return "camera.target: is where the camera is";
+  if (!(glm::length(glm::cross(glm::normalize(forward), camera.up)) > 1e-6f * glm::length(camera.up)))
+    return "camera.up: is zero or along the view";
+  return {};
+}
+
+} // namespace candela

@@ -1,0 +1,51 @@
+#pragma once
+// Bulk data of a scene: shared between copies of a Document and never changed once they are in one.
+
+#include "core/bounds.h"
+#include "core/math.h"
+
+#include <string>
+#include <vector>
+
+namespace candela {
+
+/// Triangles with one index per corner for all attributes; readers split vertices where attributes differ.
+struct Mesh {
+  std::string name;
+  std::string
+      source; ///< the file it came from, for messages and for writing it back by reference; may be empty
+  std::vector<vec3> positions;
+  std::vector<vec3>
+      normals; ///< unit, per vertex; empty: flat. A zero normal means: flat at this vertex's triangles.
+  std::vector<vec2> uvs; ///< per vertex; empty: none
+  std::vector<uvec3> triangles;
+  std::vector<std::uint32_t> material_slots;    ///< per triangle, indexes slot_names; empty: all 0
+  std::vector<std::string> slot_names = {""};   ///< what the file calls its materials
+  bool operator==(const Mesh&) const = default; ///< by value; compare pointers first where that is enough
+};
+
+/// An 8-bit sRGB picture that colours a surface; row 0 is the top, three bytes a texel.
+struct Texture {
+  std::string name;
+  std::string source;
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> srgb;
+  bool operator==(const Texture&) const = default;
+};
+
+/// A float picture: linear Rec. 709, row 0 is the top.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<vec3> pixels;
+
+  const vec3& at(int x, int y) const {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(x)];
+  }
+  vec3& at(int x, int y) { return const_cast<vec3&>(static_cast<const Image&>(*this).at(x, y)); }
+  bool operator==(const Image&) const = default;
+};
+
+} // namespace candela

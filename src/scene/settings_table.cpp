@@ -1,0 +1,180 @@
+// The settings table: one row per setting, in the order in which the panels and the README show them.
+
+#include "core/error.h"
+#include "scene/document.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace candela {
+
+namespace {
+
+constexpr auto kInf = std::numeric_limits<double>::infinity();
+constexpr std::string_view kFilters[] = {"box", "gaussian"};
+constexpr std::string_view kSamplers[] = {"independent", "stratified", "sobol"};
+constexpr std::string_view kLightSampling[] = {"bsdf", "nee", "mis"};
+constexpr std::string_view kHeuristics[] = {"balance", "power"};
+constexpr std::string_view kDirections[] = {"uniform", "cosine", "bsdf"};
+constexpr std::string_view kRoulette[] = {"off", "throughput", "fixed"};
+constexpr std::string_view kComponents[] = {"all", "emitted", "direct", "indirect"};
+constexpr std::string_view kOverrides[] = {"none", "diffuse", "phong", "ggx", "mirror", "dielectric"};
+constexpr std::string_view kViews[] = {"radiance", "albedo", "normal", "depth"};
+constexpr std::string_view kToneMaps[] = {"reinhard", "filmic", "srgb"};
+
+constexpr auto kImage = Invalidates::image;
+
+#define AT(member) [](Document& d) -> void* { return &d.member; }
+
+const Field<Document> kTable[] = {
+    {{"sampler.type", FieldType::choice, 0, 0, "", "Where the random numbers come from", kImage, kSamplers},
+     AT(settings.sampler.type)},
+    {{"sampler.seed", FieldType::integer, 0, 2147483647, "", "Another seed, another noise of the same image"},
+     AT(settings.sampler.seed)},
+    {{"sampler.strata", FieldType::integer, 1, 64, "", "Strata a side of the stratified sampler"},
+     AT(settings.sampler.strata)},
+
+    {{"path.light_sampling", FieldType::choice, 0, 0, "",
+      "How direct light is found: by chance (bsdf), by aiming at lights (nee), or both, weighted (mis)",
+      kImage, kLightSampling},
+     AT(settings.path.light_sampling)},
+    {{"path.mis_heuristic", FieldType::choice, 0, 0, "", "Weights of mis", kImage, kHeuristics},
+     AT(settings.path.mis_heuristic)},
+    {{"path.light_samples", FieldType::integer, 1, 64, "", "Shadow rays at every vertex, for nee and mis"},
+     AT(settings.path.light_samples)},
+    {{"path.direction_sampling", FieldType::choice, 0, 0, "",
+      "Density of the next direction: uniform, by the cosine, or by the material", kImage, kDirections},
+     AT(settings.path.direction_sampling)},
+    {{"path.max_depth", FieldType::integer, -1, 1000000, "segments",
+      "Longest path: 1 shows lights alone, 2 direct light, -1 has no limit (a limit loses light)"},
+     AT(settings.path.max_depth)},
+    {{"path.rr", FieldType::choice, 0, 0, "",
+      "Russian roulette: off, by the path's throughput, or with a fixed chance", kImage, kRoulette},
+     AT(settings.path.rr)},
+    {{"path.rr_depth", FieldType::integer, 0, 1000000, "segments", "Segments before Russian roulette starts"},
+     AT(settings.path.rr_depth)},
+    {{"path.rr_probability", FieldType::real, 0.01, 1, "", "Chance to go on, with path.rr = fixed"},
+     AT(settings.path.rr_probability)},
+    {{"path.component", FieldType::choice, 0, 0, "", "Which part of the light is shown", kImage, kComponents},
+     AT(settings.path.component)},
+    {{"path.clamp",
+      FieldType::real,
+      0,
+      1e9,
+      "W/(m^2 sr)",
+      "Largest channel of one sample; 0 is off (clamping loses light: the image is biased)",
+      kImage,
+      {},
+      true},
+     AT(settings.path.clamp)},
+
+    {{"override.brdf", FieldType::choice, 0, 0, "", "Renders every surface as this one material", kImage,
+      kOverrides},
+     AT(settings.override_brdf.brdf)},
+    {{"override.diffuse", FieldType::color, 0, 1, "", "Lambertian reflectance of the override"},
+     AT(settings.override_brdf.diffuse)},
+    {{"override.specular", FieldType::color, 0, 1, "", "Specular reflectance of the override"},
+     AT(settings.override_brdf.specular)},
+    {{"override.exponent", FieldType::real, 0, 1e6, "", "Phong exponent of the override", kImage, {}, true},
+     AT(settings.override_brdf.exponent)},
+    {{"override.roughness", FieldType::real, 0, 1, "", "GGX roughness of the override"},
+     AT(settings.override_brdf.roughness)},
+    {{"override.ior", FieldType::real, 0.1, 10, "", "Index of refraction of the override"},
+     AT(settings.override_brdf.ior)},
+
+    {{"film.width", FieldType::integer, 1, 16384, "pixels", "Width of the image"}, AT(settings.film.width)},
+    {{"film.height", FieldType::integer, 1, 16384, "pixels", "Height of the image"},
+     AT(settings.film.height)},
+    {{"film.filter", FieldType::choice, 0, 0, "", "Pixel filter, sampled by importance", kImage, kFilters},
+     AT(settings.film.filter)},
+    {{"film.filter_radius", FieldType::real, 0.01, 8, "pixels",
+      "Half the filter's full width; the gaussian's sigma is a third of it"},
+     AT(settings.film.filter_radius)},
+    {{"view", FieldType::choice, 0, 0, "", "What a pixel shows: radiance, or a property of the first surface",
+      kImage, kViews},
+     AT(settings.view)},
+
+    {{"camera.position", FieldType::point, -kInf, kInf, "", "Where the camera is"},
+     AT(scene.camera.position)},
+    {{"camera.target", FieldType::point, -kInf, kInf, "", "The point it looks at"}, AT(scene.camera.target)},
+    {{"camera.up", FieldType::point, -kInf, kInf, "", "The direction that is up in the image"},
+     AT(scene.camera.up)},
+    {{"camera.vertical_fov", FieldType::angle, 0.1, 179, "degrees", "Vertical field of view"},
+     AT(scene.camera.vertical_fov)},
+    {{"camera.aperture_radius",
+      FieldType::real,
+      0,
+      1e6,
+      "scene units",
+      "Radius of the thin lens; 0 is a pinhole, everything is in focus",
+      kImage,
+      {},
+      true},
+     AT(scene.camera.aperture_radius)},
+    {{"camera.focus_distance",
+      FieldType::real,
+      0,
+      1e9,
+      "scene units",
+      "Distance of the plane in focus along the view axis; 0: that of the target",
+      kImage,
+      {},
+      true},
+     AT(scene.camera.focus_distance)},
+
+    {{"stop.spp", FieldType::integer, 0, 1000000000, "samples", "Samples a pixel at which to stop; 0: never",
+      Invalidates::nothing},
+     AT(settings.stop.spp)},
+    {{"stop.time", FieldType::real, 0, 1e9, "s", "Seconds of rendering at which to stop; 0: never",
+      Invalidates::nothing},
+     AT(settings.stop.time)},
+
+    {{"display.tone_map", FieldType::choice, 0, 0, "",
+      "Extended Reinhard by luminance, a filmic curve, or sRGB encoding alone", Invalidates::display,
+      kToneMaps},
+     AT(settings.display.tone_map)},
+    {{"display.exposure", FieldType::real, -20, 20, "stops", "Powers of two that multiply the picture",
+      Invalidates::display},
+     AT(settings.display.exposure)},
+    {{"display.white_point",
+      FieldType::real,
+      0.01,
+      1e6,
+      "",
+      "Luminance that Reinhard maps to white",
+      Invalidates::display,
+      {},
+      true},
+     AT(settings.display.white_point)},
+};
+
+#undef AT
+
+} // namespace
+
+std::span<const Field<Document>> settings_table() { return kTable; }
+
+const Field<Document>* find_setting(std::string_view key) {
+  for (const auto& row : kTable)
+    if (row.key == key) return &row;
+  return nullptr;
+}
+
+void apply_setting(Document& document, std::string_view assignment) {
+  auto equals = assignment.find('=');
+  if (equals == std::string_view::npos)
+    throw usage_error(fmt::format("--set {}", assignment), "there is no '='", "write KEY=VALUE");
+  std::string_view key = assignment.substr(0, equals);
+  const auto* row = find_setting(key);
+  if (row == nullptr) {
+    std::vector<std::string_view> keys;
+    for (const auto& r : kTable) keys.push_back(r.key);
+    std::string near = nearest_name(key, keys);
+    throw usage_error(fmt::format("--set {}", key), "there is no such setting",
+                      near.empty() ? "see `candela settings`" : fmt::format("did you mean {}?", near));
+  }
+  field_from_text(*row, row->address(document), assignment.substr(equals + 1));
+}
+
+} // namespace candela

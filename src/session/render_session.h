@@ -1,0 +1,75 @@
+#pragma once
+// The interactive engine: the only owner of the render thread. The UI submits Documents and looks at what is
+// newest; no call of it ever waits for rendering.
+
+#include "render/frame.h"
+#include "render/picking.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace candela {
+
+enum class SessionPhase { idle, building, rendering, finished, failed };
+
+struct SessionStatus {
+  SessionPhase phase = SessionPhase::idle;
+  std::uint64_t submitted = 0;  ///< newest generation handed in
+  std::uint64_t generation = 0; ///< the one that is accumulating
+  std::uint64_t restarts = 0;   ///< accumulations begun since the session began
+  int spp = 0;                  ///< complete passes of this accumulation
+  RayCounts rays;               ///< of this accumulation
+  double render_seconds = 0;    ///< of this accumulation
+  double first_image_ms =
+      0;               ///< from the last restarting submit() to its first published image; < 0: not there yet
+  double progress = 0; ///< 0..1 towards the nearest stopping criterion; 0 where there is none
+  std::uint64_t nonfinite = 0; ///< NaN or infinite samples of this accumulation
+  std::string error;           ///< why phase is failed
+};
+
+/// A tone-mapped picture, ready for glTexImage2D as RGBA8.
+struct DisplayImage {
+  std::shared_ptr<const Frame> frame; ///< what it was made from
+  DisplaySettings display;            ///< and how
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba; ///< row 0 is the top
+};
+
+struct SessionOptions {
+  int threads = 0;                  ///< 0: every core
+  std::function<void()> on_publish; ///< called from a session thread when there is something new to show
+  double min_publish_interval = 1 / 30.0; ///< seconds between pictures once the first full one is shown
+};
+
+class RenderSession {
+public:
+  explicit RenderSession(SessionOptions options = {});
+  ~RenderSession(); ///< cancels and joins
+  RenderSession(const RenderSession&) = delete;
+  RenderSession& operator=(const RenderSession&) = delete;
+
+  /// Hands in a new Document (latest wins) and returns its generation. What it restarts is decided by
+  /// compare_documents(): a display-only change re-tones the newest frame and keeps accumulating.
+  std::uint64_t submit(Document document);
+
+  std::shared_ptr<const Frame> latest() const;         ///< null before the first image
+  std::shared_ptr<const DisplayImage> display() const; ///< null before the first image
+  SessionStatus status() const;
+
+  /// What lies under a film position (pixels, top-left origin) of the newest built scene; nothing while it
+  /// builds.
+  std::optional<Pick> pick(vec2 film_position) const;
+
+  /// For tests and screenshots: waits until the newest Document is finished (or failed) and its picture is
+  /// shown; false after `seconds`. Never called by the UI thread.
+  bool wait_finished(double seconds) const;
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+} // namespace candela
