@@ -1,0 +1,56 @@
+#include "io/file_bytes.h"
+
+#include "core/error.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace candela {
+
+namespace {
+
+struct Descriptor {
+  int value = -1;
+  ~Descriptor() {
+    if (value >= 0) ::close(value);
+  }
+};
+
+} // namespace
+
+Bytes read_file_bytes(const std::string& path, const char* element, std::size_t max_bytes) {
+  Location where{path};
+  auto failed = [&](const char* what) {
+    return input_error(where, element, fmt::format("{}: {}", what, std::strerror(errno)),
+                       "check the path and its permissions");
+  };
+  // O_NONBLOCK: opening a pipe without a writer returns, so that it can be refused.
+  Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  if (file.value < 0) throw failed("it cannot be opened");
+  struct stat status {};
+  if (::fstat(file.value, &status) != 0) throw failed("it cannot be opened");
+  if (!S_ISREG(status.st_mode))
+    throw input_error(where, element, "it is not a regular file", "name a file, no folder, pipe or device");
+  auto size = static_cast<std::uint64_t>(status.st_size);
+  if (size > max_bytes)
+    throw limit_error(where, element, fmt::format("{} bytes are more than the {} allowed", size, max_bytes),
+                      "use a smaller file");
+  Bytes bytes(size);
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    ssize_t got = ::read(file.value, bytes.data() + done, bytes.size() - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw failed("it cannot be read");
+    if (got == 0) break; // it shrank meanwhile: what is missing is the decoder's to find
+    done += static_cast<std::size_t>(got);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+} // namespace candela

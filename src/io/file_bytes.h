@@ -1,0 +1,20 @@
+#pragma once
+// Whole files in memory, which is where the decoders of this folder read them.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace candela {
+
+using Bytes = std::vector<std::uint8_t>;
+using ByteView = std::span<const std::uint8_t>;
+
+/// Reads a regular file (a pipe or a device could hold the reader up for ever). `element` names in messages
+/// what the file was to be ("image", "mesh"). Throws input_error if it cannot be opened or read and
+/// limit_error above max_bytes, before anything is allocated.
+Bytes read_file_bytes(const std::string& path, const char* element, std::size_t max_bytes = 0x7fffffff);
+
+} // namespace candela

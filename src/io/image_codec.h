@@ -1,0 +1,72 @@
+#pragma once
+// What the image formats of this folder have in common, and their entry points. Only image_file.cpp and
+// texture_reader.cpp use these; everybody else goes through image_file.h and texture_reader.h.
+//
+// Decoders take the whole file; they throw input_error for what is damaged and limit_error for what is too
+// large, located at `where`, before they allocate pixels.
+
+#include "core/error.h"
+#include "io/file_bytes.h"
+#include "io/image_file.h"
+#include "scene/mesh.h"
+
+#include <string>
+#include <string_view>
+
+namespace candela {
+
+/// Caps of every reader of pictures.
+inline constexpr std::int64_t kMaxImageSide = 65536;
+inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
+
+/// Throws input_error unless both sides are positive, limit_error above the caps.
+void check_image_size(const Location& where, std::int64_t width, std::int64_t height);
+
+/// The error of a damaged file.
+Error damaged_image(const Location& where, std::string_view cause);
+
+/// 8 bits a channel, row 0 is the top, encoded as sRGB.
+struct Picture8 {
+  int width = 0;
+  int height = 0;
+  Bytes rgb;
+};
+
+// image_file.cpp: the format is known by its signature.
+Image decode_image(ByteView bytes, const Location& where);
+
+// stb_codec.cpp: PNG, JPEG, BMP and (`tga`: it has no signature, so the caller has to know) TGA.
+// Alpha is dropped; PNGs of 16 bits keep them in decode_stb.
+bool is_stb_format(ByteView bytes);
+Picture8 decode_stb8(ByteView bytes, const Location& where, bool tga = false);
+Image decode_stb(ByteView bytes, const Location& where, bool tga = false);
+/// Throw std::bad_alloc when out of memory.
+Bytes encode_png(int width, int height, ByteView rgb);
+Bytes encode_jpg(int width, int height, ByteView rgb);
+
+// png_check.cpp: structure and checksums of a PNG, which stb_image leaves unread.
+bool is_png(ByteView bytes);
+void check_png(ByteView bytes, const Location& where);
+
+// pnm.cpp: PPM and PGM (P2, P3, P5, P6), up to 16 bits, read as sRGB; written as P6.
+bool is_pnm(ByteView bytes);
+Image decode_pnm(ByteView bytes, const Location& where);
+Bytes encode_ppm(int width, int height, ByteView rgb);
+
+// exr.cpp: OpenEXR, flat parts, any compression; written as 32-bit float, ZIP.
+bool is_exr(ByteView bytes);
+Image decode_exr(ByteView bytes, const Location& where);
+/// `path` is for messages.
+Bytes encode_exr(const Image& image, const std::string& path, const ImageMetadata& metadata);
+
+// hdr.cpp: Radiance RGBE.
+bool is_hdr(ByteView bytes);
+Image decode_hdr(ByteView bytes, const Location& where);
+Bytes encode_hdr(const Image& image, const ImageMetadata& metadata);
+
+// pfm.cpp: portable float map, colour and grey, either byte order.
+bool is_pfm(ByteView bytes);
+Image decode_pfm(ByteView bytes, const Location& where);
+Bytes encode_pfm(const Image& image);
+
+} // namespace candela
