@@ -46,11 +46,11 @@ struct InstanceGeometry {
 
 /// What to build from. Nothing is referenced after the build but the objects of instances.
 struct AccelInput {
-  std::span<const vec3> vertices;
-  std::span<const uvec3> triangles; ///< three indices into vertices each
-  std::span<const SphereGeometry> spheres;
-  std::span<const DiscGeometry> discs;
-  std::span<const InstanceGeometry> instances;
+  std::span<const vec3> vertices = {};
+  std::span<const uvec3> triangles = {}; ///< three indices into vertices each
+  std::span<const SphereGeometry> spheres = {};
+  std::span<const DiscGeometry> discs = {};
+  std::span<const InstanceGeometry> instances = {};
 };
 
 inline constexpr std::uint32_t kNoInstance = 0xffffffffu;

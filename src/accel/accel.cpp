@@ -1,0 +1,207 @@
+#include "accel/accel.h"
+
+#include "accel/binary_bvh.h"
+#include "accel/layout.h"
+#include "accel/wide_bvh.h"
+#include "core/error.h"
+
+#include <algorithm>
+
+namespace candela {
+
+using namespace accel_detail;
+
+namespace {
+
+/// Beyond, products of coordinates overflow; so does what the file that holds them meant.
+constexpr float kMaxCoordinate = 1e12f;
+
+bool usable(vec3 p) {
+  return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
+         std::abs(p.z) <= kMaxCoordinate;
+}
+
+/// No ray can be said to hit a triangle without a normal. Exact for all but extreme vertices.
+bool has_area(vec3 a, vec3 b, vec3 c) {
+  glm::dvec3 n = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
+  return n != glm::dvec3(0);
+}
+
+/// Empty if the primitive is to be left out.
+Bounds3 triangle_bounds(const AccelInput& input, std::size_t i) {
+  Bounds3 b;
+  uvec3 t = input.triangles[i];
+  std::size_t n = input.vertices.size();
+  if (t.x >= n || t.y >= n || t.z >= n) return b;
+  vec3 p0 = input.vertices[t.x], p1 = input.vertices[t.y], p2 = input.vertices[t.z];
+  if (!usable(p0) || !usable(p1) || !usable(p2) || !has_area(p0, p1, p2)) return b;
+  b.grow(p0), b.grow(p1), b.grow(p2);
+  return b;
+}
+
+/// Grown by what rounding may have cut off.
+Bounds3 padded(vec3 center, vec3 extent) {
+  vec3 pad = (glm::abs(center) + extent) * 0x1p-22f;
+  return {center - extent - pad, center + extent + pad};
+}
+
+Bounds3 sphere_bounds(const AccelInput& input, std::size_t i) {
+  const SphereGeometry& s = input.spheres[i];
+  if (!usable(s.center) || !(s.radius > 0 && s.radius <= kMaxCoordinate)) return {};
+  return padded(s.center, vec3(s.radius));
+}
+
+Bounds3 disc_bounds(const AccelInput& input, std::size_t i) {
+  const DiscGeometry& d = input.discs[i];
+  if (!usable(d.center) || !(d.radius > 0 && d.radius <= kMaxCoordinate)) return {};
+  if (!is_finite(d.normal) || d.normal == vec3(0)) return {};
+  // The extent along an axis is that of a circle: r sqrt(1 - n_i^2), here free of cancellation.
+  vec3 n2 = d.normal * d.normal;
+  vec3 tangent = glm::sqrt(vec3(n2.y + n2.z, n2.z + n2.x, n2.x + n2.y));
+  return padded(d.center, d.radius * tangent);
+}
+
+glm::dmat4 to_double(const mat4& m) { return glm::dmat4(m); }
+
+Bounds3 instance_bounds(const AccelInput& input, std::size_t i) {
+  const InstanceGeometry& instance = input.instances[i];
+  if (!instance.object) return {};
+  Bounds3 local = instance.object->bounds(), result;
+  if (local.empty()) return result;
+  glm::dmat4 m = to_double(instance.world_from_object);
+  double determinant = glm::determinant(glm::dmat3(m));
+  if (!std::isfinite(determinant) || determinant == 0) return result;
+  for (int corner = 0; corner < 8; ++corner) {
+    glm::dvec4 p(corner & 1 ? local.hi.x : local.lo.x, corner & 2 ? local.hi.y : local.lo.y,
+                 corner & 4 ? local.hi.z : local.lo.z, 1);
+    vec3 q(m * p);
+    if (!usable(q)) return {};
+    result.grow(q);
+  }
+  return padded(result.center(), 0.5f * result.diagonal());
+}
+
+/// Appends a ref for every primitive of a kind that can be hit; gives how many.
+template <class BoundsOf>
+std::size_t append_refs(std::vector<BuildRef>& refs, LeafKind kind, std::size_t count, BoundsOf bounds_of) {
+  std::size_t first = refs.size();
+  refs.resize(first + count);
+#pragma omp parallel for schedule(static) if (count > 10000)
+  for (std::size_t i = 0; i < count; ++i) {
+    Bounds3 b = bounds_of(i);
+    refs[first + i] = {
+        {b.lo.x, b.lo.y, b.lo.z}, static_cast<std::uint32_t>(i), {b.hi.x, b.hi.y, b.hi.z}, kind};
+  }
+  auto left_out = [](const BuildRef& ref) { return ref.lo[0] > ref.hi[0]; };
+  refs.erase(std::remove_if(refs.begin() + static_cast<std::ptrdiff_t>(first), refs.end(), left_out),
+             refs.end());
+  return refs.size() - first;
+}
+
+InstanceRecord make_instance(const AccelInput& input, std::uint32_t index) {
+  const InstanceGeometry& instance = input.instances[index];
+  glm::dmat4 inverse = glm::inverse(to_double(instance.world_from_object));
+  return {AccelAccess::tree(*instance.object), glm::mat4x3(mat4(inverse)), index};
+}
+
+void fill_pack(AccelTree& tree, const AccelInput& input, const std::vector<BuildRef>& refs,
+               const LeafRange& leaf) {
+  for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
+    // Unused lanes repeat the last primitive.
+    std::uint32_t index = refs[leaf.begin + std::min(lane, leaf.count - 1)].index;
+    switch (leaf.kind) {
+    case LeafKind::triangles: {
+      TrianglePack& pack = tree.triangles[leaf.pack];
+      for (int k = 0; k < 3; ++k) {
+        vec3 p = input.vertices[input.triangles[index][k]];
+        for (int a = 0; a < 3; ++a)
+          pack.vertex[static_cast<std::size_t>(k)][static_cast<std::size_t>(a)][lane] = p[a];
+      }
+      pack.primitive[lane] = index;
+      break;
+    }
+    case LeafKind::spheres: {
+      SpherePack& pack = tree.spheres[leaf.pack];
+      const SphereGeometry& s = input.spheres[index];
+      for (int a = 0; a < 3; ++a) pack.center[static_cast<std::size_t>(a)][lane] = s.center[a];
+      pack.radius[lane] = s.radius;
+      pack.primitive[lane] = index;
+      break;
+    }
+    case LeafKind::discs: {
+      DiscPack& pack = tree.discs[leaf.pack];
+      const DiscGeometry& d = input.discs[index];
+      for (int a = 0; a < 3; ++a) {
+        pack.center[static_cast<std::size_t>(a)][lane] = d.center[a];
+        pack.normal[static_cast<std::size_t>(a)][lane] = d.normal[a];
+      }
+      pack.radius[lane] = d.radius;
+      pack.primitive[lane] = index;
+      break;
+    }
+    case LeafKind::instance: tree.instances[leaf.pack] = make_instance(input, index); return;
+    }
+  }
+}
+
+} // namespace
+
+Accel::Accel() = default;
+Accel::~Accel() = default;
+Accel::Accel(Accel&&) noexcept = default;
+Accel& Accel::operator=(Accel&&) noexcept = default;
+Accel::Accel(std::unique_ptr<const AccelTree> tree) : tree_(std::move(tree)) {}
+
+Accel Accel::build(const AccelInput& input, BuildQuality quality) {
+  std::size_t count =
+      input.triangles.size() + input.spheres.size() + input.discs.size() + input.instances.size();
+  if (count > kMaxPrimitives)
+    throw limit_error({}, "scene", "more than 2^28 primitives", "use fewer, or instances");
+  for (const InstanceGeometry& instance : input.instances)
+    if (instance.object && instance.object->stats().instances)
+      throw limit_error({}, "instance", "its object holds instances itself", "flatten the hierarchy");
+
+  auto tree = std::make_unique<AccelTree>();
+  AccelStats& stats = tree->stats;
+  std::vector<BuildRef> refs;
+  refs.reserve(count);
+  stats.triangles = append_refs(refs, LeafKind::triangles, input.triangles.size(),
+                                [&](std::size_t i) { return triangle_bounds(input, i); });
+  stats.spheres = append_refs(refs, LeafKind::spheres, input.spheres.size(),
+                              [&](std::size_t i) { return sphere_bounds(input, i); });
+  stats.discs = append_refs(refs, LeafKind::discs, input.discs.size(),
+                            [&](std::size_t i) { return disc_bounds(input, i); });
+  stats.instances = append_refs(refs, LeafKind::instance, input.instances.size(),
+                                [&](std::size_t i) { return instance_bounds(input, i); });
+  stats.skipped = count - refs.size();
+  stats.bytes = sizeof(AccelTree);
+  if (refs.empty()) return Accel(std::move(tree));
+
+  BinaryBvh binary = build_binary_bvh(std::move(refs), quality);
+  WideBvh wide = collapse(binary, quality);
+  const BinaryNode& root = binary.nodes[0];
+  tree->root = wide.root;
+  tree->bounds = {{root.lo[0], root.lo[1], root.lo[2]}, {root.hi[0], root.hi[1], root.hi[2]}};
+  tree->nodes = std::move(wide.nodes);
+  tree->triangles.resize(wide.packs[static_cast<std::size_t>(LeafKind::triangles)]);
+  tree->spheres.resize(wide.packs[static_cast<std::size_t>(LeafKind::spheres)]);
+  tree->discs.resize(wide.packs[static_cast<std::size_t>(LeafKind::discs)]);
+  tree->instances.resize(wide.packs[static_cast<std::size_t>(LeafKind::instance)]);
+#pragma omp parallel for schedule(static) if (wide.leaves.size() > 1000)
+  for (std::size_t i = 0; i < wide.leaves.size(); ++i) fill_pack(*tree, input, binary.refs, wide.leaves[i]);
+
+  stats.nodes = tree->nodes.size();
+  stats.leaves = wide.leaves.size();
+  stats.depth = wide.depth;
+  stats.sah_cost = wide.sah_cost;
+  stats.bytes += tree->nodes.size() * sizeof(WideNode) + tree->triangles.size() * sizeof(TrianglePack) +
+                 tree->spheres.size() * sizeof(SpherePack) + tree->discs.size() * sizeof(DiscPack) +
+                 tree->instances.size() * sizeof(InstanceRecord);
+  return Accel(std::move(tree));
+}
+
+Bounds3 Accel::bounds() const { return tree_ ? tree_->bounds : Bounds3{}; }
+std::size_t Accel::memory_bytes() const { return stats().bytes; }
+AccelStats Accel::stats() const { return tree_ ? tree_->stats : AccelStats{}; }
+
+} // namespace candela

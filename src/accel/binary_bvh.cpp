@@ -1,0 +1,246 @@
+#include "accel/binary_bvh.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace candela::accel_detail {
+
+namespace {
+
+/// Four floats, of which three are used: makes growing a box two instructions.
+using Vec4 = float __attribute__((vector_size(16)));
+
+inline Vec4 min4(Vec4 a, Vec4 b) { return a < b ? a : b; }
+inline Vec4 max4(Vec4 a, Vec4 b) { return a > b ? a : b; }
+
+struct Box4 {
+  Vec4 lo{kInfinity, kInfinity, kInfinity, kInfinity};
+  Vec4 hi{-kInfinity, -kInfinity, -kInfinity, -kInfinity};
+
+  void grow(Vec4 low, Vec4 high) { lo = min4(lo, low), hi = max4(hi, high); }
+  void grow(const Box4& b) { grow(b.lo, b.hi); }
+  float half_area() const {
+    Vec4 d = hi - lo;
+    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+  }
+};
+
+// The fourth lane holds the bits of index and kind; no result depends on it.
+inline Vec4 low(const BuildRef& ref) { return *reinterpret_cast<const Vec4*>(ref.lo.data()); }
+inline Vec4 high(const BuildRef& ref) { return *reinterpret_cast<const Vec4*>(ref.hi.data()); }
+inline Vec4 centroid(const BuildRef& ref) { return (low(ref) + high(ref)) * 0.5f; }
+
+constexpr int kMaxBins = 32;
+
+struct Bin {
+  Box4 box;
+  std::uint32_t count = 0;
+};
+struct Bins {
+  std::array<std::array<Bin, kMaxBins>, 3> axis;
+};
+
+/// The boxes of a range: of the primitives and of their centroids.
+struct RangeBounds {
+  Box4 box, centroids;
+  std::uint32_t kinds = 0; ///< a bit each
+
+  void grow(const BuildRef& ref) {
+    box.grow(low(ref), high(ref));
+    Vec4 c = centroid(ref);
+    centroids.grow(c, c);
+    kinds |= 1u << static_cast<std::uint32_t>(ref.kind);
+  }
+  void grow(const RangeBounds& b) { box.grow(b.box), centroids.grow(b.centroids), kinds |= b.kinds; }
+};
+
+/// Maps centroids to bins.
+struct Binning {
+  Vec4 origin, scale;
+  int bins;
+
+  Binning(const Box4& centroids, int bin_count) : origin(centroids.lo), bins(bin_count) {
+    Vec4 extent = centroids.hi - centroids.lo;
+    scale = Vec4{0, 0, 0, 0};
+    for (int a = 0; a < 3; ++a)
+      if (extent[a] > 0) {
+        float s = 0.9999f * static_cast<float>(bins) / extent[a];
+        scale[a] = std::isfinite(s) ? s : 0.0f; // denormal extents: treat as coincident
+      }
+  }
+  bool usable(int a) const { return scale[a] > 0; }
+  /// Always in range: the product lies in [0, 0.9999 bins].
+  int bin(Vec4 c, int a) const { return static_cast<int>((c[a] - origin[a]) * scale[a]); }
+};
+
+struct Split {
+  float cost = kInfinity; ///< area times count of both sides
+  int axis = -1;
+  int first_right_bin = 0;
+};
+
+class Builder {
+public:
+  Builder(BinaryBvh& bvh, BuildQuality quality) : bvh_(bvh), quality_(quality) {}
+
+  void build() {
+    auto count = static_cast<std::uint32_t>(bvh_.refs.size());
+#pragma omp parallel
+#pragma omp single
+    build_range(0, 0, count, range_bounds(0, count), 1);
+  }
+
+private:
+  // Below: one task does it all. Above kParallelRange the passes over the range are parallel too. The chunks
+  // do not depend on the number of threads, and neither minima, maxima nor counts depend on the order of
+  // merging.
+  static constexpr std::uint32_t kTaskRange = 2048;
+  static constexpr std::uint32_t kParallelRange = 1u << 17;
+  static constexpr std::uint32_t kChunks = 16;
+
+  BuildRef* refs() { return bvh_.refs.data(); }
+
+  template <class Result, class Visit>
+  void reduce(std::uint32_t begin, std::uint32_t end, Result& result, Visit visit) {
+    if (end - begin < kParallelRange) {
+      visit(begin, end, result);
+      return;
+    }
+    std::array<Result, kChunks> partial;
+    auto at = [=](std::uint32_t chunk) {
+      return begin + static_cast<std::uint32_t>(std::uint64_t{end - begin} * chunk / kChunks);
+    };
+#pragma omp taskloop default(shared) grainsize(1)
+    for (std::uint32_t chunk = 0; chunk < kChunks; ++chunk) visit(at(chunk), at(chunk + 1), partial[chunk]);
+    for (const Result& p : partial) merge(result, p);
+  }
+  static void merge(RangeBounds& a, const RangeBounds& b) { a.grow(b); }
+  static void merge(Bins& a, const Bins& b) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t i = 0; i < kMaxBins; ++i) {
+        a.axis[axis][i].box.grow(b.axis[axis][i].box);
+        a.axis[axis][i].count += b.axis[axis][i].count;
+      }
+  }
+
+  RangeBounds range_bounds(std::uint32_t begin, std::uint32_t end) {
+    RangeBounds bounds;
+    reduce(begin, end, bounds, [this](std::uint32_t from, std::uint32_t to, RangeBounds& result) {
+      for (std::uint32_t i = from; i < to; ++i) result.grow(refs()[i]);
+    });
+    return bounds;
+  }
+
+  Split best_split(const Bins& bins, const Binning& binning) const {
+    Split best;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!binning.usable(axis)) continue;
+      const auto& row = bins.axis[static_cast<std::size_t>(axis)];
+      std::array<float, kMaxBins> right_cost;
+      Box4 box;
+      std::uint32_t count = 0;
+      for (int i = binning.bins - 1; i > 0; --i) {
+        const Bin& bin = row[static_cast<std::size_t>(i)];
+        box.grow(bin.box);
+        count += bin.count;
+        right_cost[static_cast<std::size_t>(i)] =
+            count ? box.half_area() * static_cast<float>(count) : kInfinity;
+      }
+      box = Box4{}, count = 0;
+      for (int i = 1; i < binning.bins; ++i) {
+        const Bin& bin = row[static_cast<std::size_t>(i - 1)];
+        box.grow(bin.box);
+        count += bin.count;
+        if (!count) continue;
+        float cost = box.half_area() * static_cast<float>(count) + right_cost[static_cast<std::size_t>(i)];
+        if (cost < best.cost) best = {cost, axis, i};
+      }
+    }
+    return best;
+  }
+
+  int bin_count(std::uint32_t count) const {
+    if (quality_ == BuildQuality::fast) return count < 64 ? 8 : 16;
+    return count < 4096 ? 16 : kMaxBins;
+  }
+
+  /// Partitions the range; gives the first index of the right part and the bounds of both.
+  std::uint32_t split(std::uint32_t begin, std::uint32_t end, const RangeBounds& bounds, int depth,
+                      RangeBounds& left, RangeBounds& right) {
+    // From here on halving is the only way to stay within the depth: 2^(levels left) primitives.
+    int levels_left = kMaxDepth - depth - 1;
+    bool must_halve = static_cast<int>(std::bit_width(end - begin - 1)) >= levels_left;
+    Binning binning(bounds.centroids, bin_count(end - begin));
+    if (!must_halve && (binning.usable(0) || binning.usable(1) || binning.usable(2))) {
+      Bins bins;
+      reduce(begin, end, bins, [this, &binning](std::uint32_t from, std::uint32_t to, Bins& result) {
+        for (std::uint32_t i = from; i < to; ++i) {
+          const BuildRef& ref = refs()[i];
+          Vec4 c = centroid(ref), lo = low(ref), hi = high(ref);
+          for (int axis = 0; axis < 3; ++axis) {
+            Bin& bin =
+                result.axis[static_cast<std::size_t>(axis)][static_cast<std::size_t>(binning.bin(c, axis))];
+            bin.box.grow(lo, hi);
+            ++bin.count;
+          }
+        }
+      });
+      if (Split best = best_split(bins, binning); best.axis >= 0) {
+        BuildRef* mid = std::partition(refs() + begin, refs() + end, [&](const BuildRef& ref) {
+          return binning.bin(centroid(ref), best.axis) < best.first_right_bin;
+        });
+        auto middle = static_cast<std::uint32_t>(mid - refs());
+        left = range_bounds(begin, middle), right = range_bounds(middle, end);
+        return middle;
+      }
+    }
+    // Coincident centroids or no depth left: halves along the longest axis of the centroids.
+    Vec4 extent = bounds.centroids.hi - bounds.centroids.lo;
+    int axis = extent[0] >= extent[1] ? (extent[0] >= extent[2] ? 0 : 2) : (extent[1] >= extent[2] ? 1 : 2);
+    std::uint32_t middle = begin + (end - begin) / 2;
+    std::nth_element(
+        refs() + begin, refs() + middle, refs() + end,
+        [axis](const BuildRef& a, const BuildRef& b) { return centroid(a)[axis] < centroid(b)[axis]; });
+    left = range_bounds(begin, middle), right = range_bounds(middle, end);
+    return middle;
+  }
+
+  void build_range(std::uint32_t node_index, std::uint32_t begin, std::uint32_t end,
+                   const RangeBounds& bounds, int depth) {
+    BinaryNode& node = bvh_.nodes[node_index];
+    for (std::size_t a = 0; a < 3; ++a) node.lo[a] = bounds.box.lo[a], node.hi[a] = bounds.box.hi[a];
+    std::uint32_t count = end - begin;
+    node.begin = begin, node.count = count & kMaxPrimitives;
+    node.mixed = !std::has_single_bit(bounds.kinds);
+    std::uint32_t stop = quality_ == BuildQuality::high ? 1 : leaf_capacity(refs()[begin].kind);
+    node.leaf = !node.mixed && count <= stop;
+    if (node.leaf) return;
+    RangeBounds left, right;
+    std::uint32_t middle = split(begin, end, bounds, depth, left, right);
+    std::uint32_t left_node = node_index + 1, right_node = node_index + 2 * (middle - begin);
+    if (count >= kTaskRange) {
+#pragma omp task default(shared) firstprivate(left_node, begin, middle, depth)
+      build_range(left_node, begin, middle, left, depth + 1);
+      build_range(right_node, middle, end, right, depth + 1);
+#pragma omp taskwait
+    } else {
+      build_range(left_node, begin, middle, left, depth + 1);
+      build_range(right_node, middle, end, right, depth + 1);
+    }
+  }
+
+  BinaryBvh& bvh_;
+  BuildQuality quality_;
+};
+
+} // namespace
+
+BinaryBvh build_binary_bvh(std::vector<BuildRef> refs, BuildQuality quality) {
+  BinaryBvh bvh;
+  bvh.nodes = std::make_unique_for_overwrite<BinaryNode[]>(2 * refs.size() - 1);
+  bvh.refs = std::move(refs);
+  Builder(bvh, quality).build();
+  return bvh;
+}
+
+} // namespace candela::accel_detail

@@ -1,0 +1,160 @@
+#pragma once
+// Eight primitives against one ray. Each kernel gives the lanes that are hit with t in (t_min, t_max) and
+// their t.
+
+#include "accel/layout.h"
+
+namespace candela::accel_detail {
+
+/// What a kernel finds: lanes, and their t in memory, because single lanes are read next.
+struct LaneHits {
+  simd::LaneMask lanes = 0;
+  alignas(32) std::array<float, kWidth> t;
+};
+
+/// The lane of least t; the lowest such lane.
+inline int closest_lane(const LaneHits& hits) {
+  int best = std::countr_zero(hits.lanes);
+  simd::for_each_lane(hits.lanes & (hits.lanes - 1), [&](int lane) {
+    if (hits.t[static_cast<std::size_t>(lane)] < hits.t[static_cast<std::size_t>(best)]) best = lane;
+  });
+  return best;
+}
+
+/// A ray in a sheared space where it starts at 0 and points along +z (Woop, Benthin and Wald 2013,
+/// "Watertight Ray/Triangle Intersection", JCGT 2(1)). There the triangle test is a 2-D point-in-triangle
+/// test at the origin, and since both triangles at an edge see the same rounded 2-D vertices, they agree on
+/// the edge.
+template <class F>
+struct ShearedRay {
+  std::size_t kx, ky, kz; ///< kz: the axis of the largest direction component
+  F origin_x, origin_y, origin_z;
+  F shear_x, shear_y, scale_z;
+
+  explicit ShearedRay(const Ray& ray) {
+    vec3 size = glm::abs(ray.direction);
+    kz = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+    kx = kz == 2 ? 0 : kz + 1;
+    ky = kx == 2 ? 0 : kx + 1;
+    // The winding may turn over: the test takes both sides.
+    auto at = [](vec3 v, std::size_t axis) { return v[static_cast<int>(axis)]; };
+    float inverse_z = 1 / at(ray.direction, kz);
+    origin_x = F(at(ray.origin, kx)), origin_y = F(at(ray.origin, ky)), origin_z = F(at(ray.origin, kz));
+    shear_x = F(at(ray.direction, kx) * inverse_z);
+    shear_y = F(at(ray.direction, ky) * inverse_z);
+    scale_z = F(inverse_z);
+  }
+};
+
+/// Also the scaled barycentrics of the lanes that were hit.
+struct TriangleHits : LaneHits {
+  alignas(32) std::array<float, kWidth> edge_v, edge_w, determinant;
+};
+
+/// The edge functions again in double precision, for the lanes where one of them is 0 in single precision:
+/// the product of two floats is exact in double, so the sign is that of the exact value and 0 means on the
+/// edge. Gives the lanes that stay hit.
+template <class F>
+inline simd::LaneMask resolve_edges(simd::LaneMask lanes, const std::array<F, 3>& x,
+                                    const std::array<F, 3>& y, F& u, F& v, F& w) {
+  alignas(32) float xs[3][kWidth], ys[3][kWidth], us[kWidth], vs[kWidth], ws[kWidth];
+  for (std::size_t k = 0; k < 3; ++k) x[k].store(xs[k]), y[k].store(ys[k]);
+  u.store(us), v.store(vs), w.store(ws);
+  simd::LaneMask hit = 0;
+  simd::for_each_lane(lanes, [&](int i) {
+    auto edge = [&](int a, int b) {
+      return static_cast<double>(xs[a][i]) * ys[b][i] - static_cast<double>(ys[a][i]) * xs[b][i];
+    };
+    double du = edge(2, 1), dv = edge(0, 2), dw = edge(1, 0);
+    if ((du < 0 || dv < 0 || dw < 0) && (du > 0 || dv > 0 || dw > 0)) return;
+    us[i] = static_cast<float>(du), vs[i] = static_cast<float>(dv), ws[i] = static_cast<float>(dw);
+    hit |= 1u << i;
+  });
+  u = F::load(us), v = F::load(vs), w = F::load(ws);
+  return hit;
+}
+
+template <class F>
+inline void intersect_triangles(const TrianglePack& pack, const ShearedRay<F>& ray, float t_min, float t_max,
+                                TriangleHits& hits) {
+  std::array<F, 3> x, y, z;
+  for (std::size_t k = 0; k < 3; ++k) {
+    z[k] = F::load(pack.vertex[k][ray.kz].data()) - ray.origin_z;
+    x[k] = (F::load(pack.vertex[k][ray.kx].data()) - ray.origin_x) - ray.shear_x * z[k];
+    y[k] = (F::load(pack.vertex[k][ray.ky].data()) - ray.origin_y) - ray.shear_y * z[k];
+  }
+  F u = x[2] * y[1] - y[2] * x[1];
+  F v = x[0] * y[2] - y[0] * x[2];
+  F w = x[1] * y[0] - y[1] * x[0];
+
+  // Inside if no two signs differ. Rounding is monotonic, so the sign of a difference of two rounded products
+  // is right unless it is 0; and a 0 can matter only where the other two signs agree, that is, where it is
+  // the least or the greatest of the three.
+  F zero(0.0f), least = min(u, min(v, w)), greatest = max(u, max(v, w));
+  simd::LaneMask lanes = less_equal(zero, least) | less_equal(greatest, zero);
+  hits.lanes = 0;
+  if (!lanes) return;
+  if (simd::LaneMask on_edge = lanes & (equal(least, zero) | equal(greatest, zero))) [[unlikely]]
+    lanes = (lanes & ~on_edge) | resolve_edges(on_edge, x, y, u, v, w);
+
+  // t = (u z0 + v z1 + w z2) / (u + v + w); an edge-on triangle has determinant 0, so t is NaN or infinite
+  // and fails the range test.
+  F determinant = u + v + w;
+  F t = (u * z[0] + v * z[1] + w * z[2]) * ray.scale_z / determinant;
+  lanes &= less(F(t_min), t) & less(t, F(t_max));
+  hits.lanes = lanes;
+  if (!lanes) return;
+  t.store(hits.t.data());
+  v.store(hits.edge_v.data()), w.store(hits.edge_w.data()), determinant.store(hits.determinant.data());
+}
+
+/// Both roots without cancellation, also for small and far spheres (Haines et al. 2019, "Precision
+/// Improvements for Ray/Sphere Intersection", Ray Tracing Gems, chapter 7): the discriminant from the
+/// distance between centre and line, the smaller root from the product of the roots.
+template <class F>
+inline void intersect_spheres(const SpherePack& pack, const Ray& ray, float t_min, float t_max,
+                              LaneHits& hits) {
+  std::array<F, 3> d, f;
+  for (std::size_t i = 0; i < 3; ++i) {
+    int axis = static_cast<int>(i);
+    d[i] = F(ray.direction[axis]);
+    f[i] = F::load(pack.center[i].data()) - F(ray.origin[axis]);
+  }
+  auto dot = [](const std::array<F, 3>& a, const std::array<F, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  F a = dot(d, d), b = dot(f, d), radius = F::load(pack.radius.data()), along = b / a;
+  std::array<F, 3> perpendicular{f[0] - along * d[0], f[1] - along * d[1], f[2] - along * d[2]};
+  F discriminant = radius * radius - dot(perpendicular, perpendicular);
+  hits.lanes = less_equal(F(0.0f), discriminant);
+  if (!hits.lanes) return;
+  F distance2 = dot(f, f), radius2 = radius * radius;
+  F q = b + with_sign_of(sqrt(a * max(discriminant, F(0.0f))), b);
+  F t0 = (distance2 - radius2) / q, t1 = q / a;
+  F first = min(t0, t1), second = max(t0, t1);
+  // From inside, or with the first hit before t_min, the second one counts.
+  F t = select_less(F(t_min), first, first, second);
+  hits.lanes &= less(F(t_min), t) & less(t, F(t_max));
+  t.store(hits.t.data());
+}
+
+template <class F>
+inline void intersect_discs(const DiscPack& pack, const Ray& ray, float t_min, float t_max, LaneHits& hits) {
+  std::array<F, 3> d, f, n;
+  for (std::size_t i = 0; i < 3; ++i) {
+    int axis = static_cast<int>(i);
+    d[i] = F(ray.direction[axis]);
+    f[i] = F::load(pack.center[i].data()) - F(ray.origin[axis]);
+    n[i] = F::load(pack.normal[i].data());
+  }
+  auto dot = [](const std::array<F, 3>& a, const std::array<F, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  // Parallel to the plane: NaN or infinite, which the range test turns away.
+  F t = dot(f, n) / dot(d, n), radius = F::load(pack.radius.data());
+  std::array<F, 3> p{t * d[0] - f[0], t * d[1] - f[1], t * d[2] - f[2]};
+  hits.lanes = less_equal(dot(p, p), radius * radius) & less(F(t_min), t) & less(t, F(t_max));
+  t.store(hits.t.data());
+}
+
+} // namespace candela::accel_detail

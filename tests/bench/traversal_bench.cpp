@@ -1,0 +1,401 @@
+// Rays per second of the acceleration structure beside Embree's, on the same rays in one run: absolute
+// numbers drift with the machine, the ratio does not. Single rays on both sides (rtcIntersect1, rtcOccluded1;
+// robust scenes).
+//
+//   traversal_bench [--short] [--scene NAME] [--threads N]
+//
+// Each line: scene, ray set, threads, Mrays/s of ours (high build), of Embree (MEDIUM and HIGH builds), the
+// ratios.
+
+#include "accel/accel.h"
+#include "core/frame.h"
+#include "core/hash.h"
+
+#include <fmt/format.h>
+#ifdef CANDELA_BENCH_EMBREE
+#include <embree3/rtcore.h>
+#endif
+
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <omp.h>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+using namespace candela;
+
+struct Options {
+  bool quick = false;
+  std::string scene;
+  int threads = 2;
+};
+
+struct TriangleMesh {
+  std::vector<vec3> vertices;
+  std::vector<uvec3> triangles;
+};
+
+struct View {
+  vec3 eye, target;
+  float fov_y;
+  vec3 light; ///< shadow rays go to a square around it
+  float light_size;
+};
+
+struct BenchScene {
+  std::string name;
+  TriangleMesh mesh;
+  View view;
+};
+
+void add_quad(TriangleMesh& mesh, vec3 a, vec3 b, vec3 c, vec3 d) {
+  auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {a, b, c, d});
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.triangles.push_back({first, first + 2, first + 3});
+}
+
+/// A block of the Cornell box: four corners of the top and its height.
+void add_block(TriangleMesh& mesh, std::array<vec2, 4> corner, float height) {
+  auto at = [&](std::size_t i, float y) { return vec3(corner[i % 4].x, y, corner[i % 4].y); };
+  add_quad(mesh, at(0, height), at(1, height), at(2, height), at(3, height));
+  for (std::size_t i = 0; i < 4; ++i)
+    add_quad(mesh, at(i, 0), at(i + 1, 0), at(i + 1, height), at(i, height));
+}
+
+/// The box as measured at Cornell (Goral et al. 1984): walls, light, two blocks without bottoms, 36 triangles
+/// with the blocks' bottoms.
+BenchScene cornell_box() {
+  BenchScene scene{"cornell", {}, {{278, 273, -800}, {278, 273, 0}, radians(38), {278, 547, 280}, 130}};
+  TriangleMesh& m = scene.mesh;
+  add_quad(m, {552.8f, 0, 0}, {0, 0, 0}, {0, 0, 559.2f}, {549.6f, 0, 559.2f});
+  add_quad(m, {556, 548.8f, 0}, {556, 548.8f, 559.2f}, {0, 548.8f, 559.2f}, {0, 548.8f, 0});
+  add_quad(m, {549.6f, 0, 559.2f}, {0, 0, 559.2f}, {0, 548.8f, 559.2f}, {556, 548.8f, 559.2f});
+  add_quad(m, {0, 0, 559.2f}, {0, 0, 0}, {0, 548.8f, 0}, {0, 548.8f, 559.2f});
+  add_quad(m, {552.8f, 0, 0}, {549.6f, 0, 559.2f}, {556, 548.8f, 559.2f}, {556, 548.8f, 0});
+  add_quad(m, {343, 548.7f, 227}, {343, 548.7f, 332}, {213, 548.7f, 332}, {213, 548.7f, 227});
+  std::array<vec2, 4> low{{{130, 65}, {82, 225}, {240, 272}, {290, 114}}};
+  std::array<vec2, 4> tall{{{423, 247}, {265, 296}, {314, 456}, {472, 406}}};
+  add_block(m, low, 165), add_block(m, tall, 330);
+  add_quad(m, {130, 0, 65}, {82, 0, 225}, {240, 0, 272}, {290, 0, 114});
+  add_quad(m, {423, 0, 247}, {265, 0, 296}, {314, 0, 456}, {472, 0, 406});
+  return scene;
+}
+
+/// A sphere of rings x 2 rings quads with bumps of three scales.
+BenchScene displaced_sphere(std::uint32_t rings) {
+  BenchScene scene{"sphere", {}, {{0, 0.5f, -3.2f}, {0, 0, 0}, radians(40), {2, 4, -3}, 1}};
+  TriangleMesh& m = scene.mesh;
+  std::uint32_t sectors = 2 * rings;
+  for (std::uint32_t i = 0; i <= rings; ++i)
+    for (std::uint32_t j = 0; j < sectors; ++j) {
+      float theta = kPi * static_cast<float>(i) / static_cast<float>(rings);
+      float phi = 2 * kPi * static_cast<float>(j) / static_cast<float>(sectors);
+      vec3 d(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+      float bump = 0.1f * std::sin(7 * d.x) * std::sin(8 * d.y) * std::sin(9 * d.z) +
+                   0.02f * std::sin(41 * d.x) * std::sin(37 * d.y) * std::sin(43 * d.z) +
+                   0.004f * std::sin(211 * d.x) * std::sin(223 * d.y) * std::sin(199 * d.z);
+      m.vertices.push_back(d * (1 + bump));
+    }
+  for (std::uint32_t i = 0; i < rings; ++i)
+    for (std::uint32_t j = 0; j < sectors; ++j) {
+      std::uint32_t a = i * sectors + j, b = i * sectors + (j + 1) % sectors;
+      m.triangles.push_back({a, b, b + sectors});
+      m.triangles.push_back({a, b + sectors, a + sectors});
+    }
+  return scene;
+}
+
+/// Positions and triangles of an OBJ file; empty if there is no such file.
+TriangleMesh read_obj(const std::string& path) {
+  TriangleMesh mesh;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream in(line);
+    std::string tag;
+    in >> tag;
+    if (tag == "v") {
+      vec3 p;
+      in >> p.x >> p.y >> p.z;
+      mesh.vertices.push_back(p);
+    } else if (tag == "f") {
+      std::vector<std::uint32_t> corners;
+      for (std::string corner; in >> corner;)
+        corners.push_back(static_cast<std::uint32_t>(std::stoul(corner)) - 1);
+      for (std::size_t i = 2; i < corners.size(); ++i)
+        mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+    }
+  }
+  return mesh;
+}
+
+BenchScene bunny() {
+  BenchScene scene{"bunny", read_obj(std::string(CANDELA_SHARED_DATA) + "/meshes/stanford-bunny.obj"), {}};
+  Bounds3 b;
+  for (vec3 p : scene.mesh.vertices) b.grow(p);
+  if (b.empty()) return scene;
+  vec3 c = b.center();
+  float size = max_component(b.diagonal());
+  // On a floor, as in any picture.
+  float y = b.lo.y, s = 2 * size;
+  add_quad(scene.mesh, {c.x - s, y, c.z - s}, {c.x - s, y, c.z + s}, {c.x + s, y, c.z + s},
+           {c.x + s, y, c.z - s});
+  scene.view = {c + size * vec3(0.3f, 0.5f, 1.5f), c, radians(42), c + size * vec3(1, 2, 1), 0.4f * size};
+  return scene;
+}
+
+float random(std::uint32_t index, std::uint32_t dimension) {
+  return to_unit_float(hash32(index + hash32(dimension)));
+}
+
+/// A pinhole camera's rays, tile by tile as a renderer traces them.
+std::vector<Ray> primary_rays(const View& view, std::uint32_t size) {
+  constexpr std::uint32_t kTile = 16;
+  Frame frame = Frame::from_normal(glm::normalize(view.target - view.eye));
+  vec3 right = glm::normalize(glm::cross(frame.n, vec3(0, 1, 0))), up = glm::cross(right, frame.n);
+  float scale = std::tan(0.5f * view.fov_y);
+  std::vector<Ray> rays;
+  for (std::uint32_t tile = 0; tile < (size / kTile) * (size / kTile); ++tile)
+    for (std::uint32_t i = 0; i < kTile * kTile; ++i) {
+      auto n = static_cast<std::uint32_t>(rays.size());
+      float x = static_cast<float>(tile % (size / kTile) * kTile + i % kTile) + random(n, 0);
+      float y = static_cast<float>(tile / (size / kTile) * kTile + i / kTile) + random(n, 1);
+      float s = scale * (2 * x / static_cast<float>(size) - 1),
+            t = scale * (1 - 2 * y / static_cast<float>(size));
+      rays.push_back({view.eye, 0, glm::normalize(frame.n + s * right + t * up), kInfinity});
+    }
+  return rays;
+}
+
+struct RaySets {
+  std::vector<Ray> primary, diffuse, shadow;
+};
+
+RaySets make_rays(const BenchScene& scene, const Accel& accel, std::uint32_t size) {
+  RaySets sets;
+  sets.primary = primary_rays(scene.view, size);
+  for (std::uint32_t i = 0; i < sets.primary.size(); ++i) {
+    const Ray& ray = sets.primary[i];
+    auto hit = accel.intersect(ray);
+    if (!hit) continue;
+    uvec3 t = scene.mesh.triangles[hit->primitive];
+    vec3 a = scene.mesh.vertices[t.x], b = scene.mesh.vertices[t.y], c = scene.mesh.vertices[t.z];
+    vec3 n = glm::normalize(glm::cross(b - a, c - a));
+    if (glm::dot(n, ray.direction) > 0) n = -n;
+    vec3 p = ray.at(hit->t) + n * (1e-4f * hit->t);
+    float r = std::sqrt(random(i, 2)), phi = 2 * kPi * random(i, 3);
+    vec3 local(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r * r));
+    sets.diffuse.push_back({p, 0, Frame::from_normal(n).to_world(local), kInfinity});
+    vec3 light = scene.view.light + scene.view.light_size * vec3(random(i, 4) - 0.5f, 0, random(i, 5) - 0.5f);
+    sets.shadow.push_back({p, 0, light - p, 0.999f});
+  }
+  return sets;
+}
+
+/// Least time of a few runs, in seconds: the others were disturbed.
+double least_seconds(int repeats, const std::function<void()>& f) {
+  double best = 1e30;
+  for (int i = 0; i < repeats; ++i) {
+    auto start = std::chrono::steady_clock::now();
+    f();
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return best;
+}
+
+/// Traces all rays; how many hit.
+template <class Trace>
+std::size_t count_hits(const std::vector<Ray>& rays, int threads, Trace trace) {
+  std::size_t hits = 0;
+#pragma omp parallel for schedule(dynamic, 2048) num_threads(threads) reduction(+ : hits)
+  for (std::size_t i = 0; i < rays.size(); ++i) hits += trace(rays[i]);
+  return hits;
+}
+
+#ifdef CANDELA_BENCH_EMBREE
+class EmbreeScene {
+public:
+  EmbreeScene(const TriangleMesh& mesh, RTCBuildQuality quality, int threads)
+      : device_(rtcNewDevice(fmt::format("threads={}", threads).c_str())), scene_(rtcNewScene(device_)) {
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene_, quality);
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* v = static_cast<vec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), mesh.vertices.size()));
+    std::copy(mesh.vertices.begin(), mesh.vertices.end(), v);
+    auto* t = static_cast<uvec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(uvec3), mesh.triangles.size()));
+    std::copy(mesh.triangles.begin(), mesh.triangles.end(), t);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+    build_seconds_ = least_seconds(1, [this] { rtcCommitScene(scene_); });
+  }
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+  ~EmbreeScene() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+  double build_seconds() const { return build_seconds_; }
+
+  bool intersect(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query;
+    query.ray = embree_ray(ray);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context, &query);
+    return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+  }
+  bool occluded(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay query = embree_ray(ray);
+    rtcOccluded1(scene_, &context, &query);
+    return query.tfar < 0;
+  }
+
+private:
+  static RTCRay embree_ray(const Ray& ray) {
+    RTCRay r;
+    r.org_x = ray.origin.x, r.org_y = ray.origin.y, r.org_z = ray.origin.z;
+    r.dir_x = ray.direction.x, r.dir_y = ray.direction.y, r.dir_z = ray.direction.z;
+    r.tnear = ray.t_min, r.tfar = ray.t_max;
+    r.time = 0, r.mask = ~0u, r.id = 0, r.flags = 0;
+    return r;
+  }
+
+  RTCDevice device_;
+  RTCScene scene_;
+  double build_seconds_ = 0;
+};
+#endif
+
+/// A build is timed alone, several times where it is short.
+int build_repeats(std::size_t triangles, bool quick) { return quick ? 1 : triangles < 200000 ? 10 : 3; }
+
+void report_build(const BenchScene& scene, int threads, const Options& options) {
+  auto million = static_cast<double>(scene.mesh.triangles.size()) * 1e-6;
+  int repeats = build_repeats(scene.mesh.triangles.size(), options.quick);
+  AccelInput input{.vertices = scene.mesh.vertices, .triangles = scene.mesh.triangles};
+  omp_set_num_threads(threads);
+  std::string line = fmt::format("{:8} build    {}T  Mtriangles/s: ours", scene.name, threads);
+  for (auto [quality, name] :
+       {std::pair(BuildQuality::fast, "fast"), std::pair(BuildQuality::high, "high")}) {
+    double s = least_seconds(repeats, [&] { Accel::build(input, quality); });
+    line += fmt::format(" {} {:.2f}", name, million / s);
+  }
+#ifdef CANDELA_BENCH_EMBREE
+  line += " | Embree";
+  for (auto [quality, name] :
+       {std::pair(RTC_BUILD_QUALITY_LOW, "low"), std::pair(RTC_BUILD_QUALITY_MEDIUM, "medium"),
+        std::pair(RTC_BUILD_QUALITY_HIGH, "high")}) {
+    double s = 1e30;
+    for (int i = 0; i < repeats; ++i)
+      s = std::min(s, EmbreeScene(scene.mesh, quality, threads).build_seconds());
+    line += fmt::format(" {} {:.2f}", name, million / s);
+  }
+#endif
+  fmt::print("{}\n", line);
+}
+
+void report_rays(const BenchScene& scene, const Options& options) {
+  AccelInput input{.vertices = scene.mesh.vertices, .triangles = scene.mesh.triangles};
+  omp_set_num_threads(options.threads);
+  Accel accel = Accel::build(input);
+  AccelStats stats = accel.stats();
+  fmt::print("{:8} {} triangles, {} nodes, {} leaves ({:.2f} triangles), depth {}, cost {:.2f}, {:.1f} "
+             "bytes/triangle\n",
+             scene.name, stats.triangles, stats.nodes, stats.leaves,
+             static_cast<double>(stats.triangles) / static_cast<double>(stats.leaves), stats.depth,
+             stats.sah_cost, static_cast<double>(stats.bytes) / static_cast<double>(stats.triangles));
+  RaySets sets = make_rays(scene, accel, options.quick ? 128 : 512);
+#ifdef CANDELA_BENCH_EMBREE
+  EmbreeScene medium(scene.mesh, RTC_BUILD_QUALITY_MEDIUM, options.threads);
+  EmbreeScene high(scene.mesh, RTC_BUILD_QUALITY_HIGH, options.threads);
+#endif
+  struct Set {
+    const char* name;
+    const std::vector<Ray>& rays;
+    bool any;
+  };
+  for (Set set : {Set{"primary", sets.primary, false}, Set{"diffuse", sets.diffuse, false},
+                  Set{"shadow", sets.shadow, true}})
+    for (int threads = 1; threads <= options.threads; threads *= 2) {
+      auto rate = [&](double seconds) { return static_cast<double>(set.rays.size()) * 1e-6 / seconds; };
+      std::array<double, 3> best{1e30, 1e30, 1e30};
+      std::array<std::size_t, 3> hits{};
+      // Interleaved, so that a drift of the machine meets all alike.
+      for (int round = 0; round < (options.quick ? 2 : 15); ++round) {
+        auto measure = [&](std::size_t which, const auto& tracer) {
+          best[which] = std::min(
+              best[which], least_seconds(1, [&] {
+                hits[which] =
+                    set.any ? count_hits(set.rays, threads, [&](const Ray& r) { return tracer.occluded(r); })
+                            : count_hits(set.rays, threads,
+                                         [&](const Ray& r) { return bool(tracer.intersect(r)); });
+              }));
+        };
+        measure(0, accel);
+#ifdef CANDELA_BENCH_EMBREE
+        measure(1, medium);
+        measure(2, high);
+#endif
+      }
+      std::string line =
+          fmt::format("{:8} {:8} {}T  Mrays/s: ours {:6.2f}", scene.name, set.name, threads, rate(best[0]));
+#ifdef CANDELA_BENCH_EMBREE
+      line += fmt::format(" | Embree medium {:6.2f} high {:6.2f} | ratio {:.2f} {:.2f} | hits {} {:+d} {:+d}",
+                          rate(best[1]), rate(best[2]), best[1] / best[0], best[2] / best[0], hits[0],
+                          static_cast<std::ptrdiff_t>(hits[1] - hits[0]),
+                          static_cast<std::ptrdiff_t>(hits[2] - hits[0]));
+#endif
+      fmt::print("{}\n", line);
+      std::fflush(stdout);
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    std::string_view arg = argv[i];
+    if (arg == "--short")
+      options.quick = true;
+    else if (arg == "--scene" && i + 1 < argc)
+      options.scene = argv[++i];
+    else if (arg == "--threads" && i + 1 < argc)
+      options.threads = std::max(1, std::atoi(argv[++i]));
+    else {
+      fmt::print(stderr, "usage: {} [--short] [--scene cornell|bunny|sphere] [--threads N]\n", argv[0]);
+      return 2;
+    }
+  }
+#ifndef CANDELA_BENCH_EMBREE
+  fmt::print("built without Embree: our numbers only\n");
+#endif
+  auto wanted = [&](std::string_view name) { return options.scene.empty() || options.scene == name; };
+  std::vector<BenchScene> scenes;
+  if (wanted("cornell")) scenes.push_back(cornell_box());
+  if (wanted("bunny")) {
+    scenes.push_back(bunny());
+    if (scenes.back().mesh.triangles.empty()) {
+      fmt::print("bunny: no " CANDELA_SHARED_DATA "/meshes/stanford-bunny.obj, left out\n");
+      scenes.pop_back();
+    }
+  }
+  if (wanted("sphere")) scenes.push_back(displaced_sphere(options.quick ? 64 : 572));
+  for (const BenchScene& scene : scenes) {
+    if (scene.mesh.triangles.size() > 1000)
+      for (int threads = 1; threads <= options.threads; threads *= 2) report_build(scene, threads, options);
+    report_rays(scene, options);
+  }
+}
