@@ -38,4 +38,10 @@ void write_linear_image(const Image& image, const std::string& path, const Image
 /// Writes PNG, JPG (quality 95) or PPM by the ending, from rows of three bytes a pixel, top row first.
 void write_srgb8_image(int width, int height, std::span<const std::uint8_t> rgb, const std::string& path);
 
+/// The same for screenshots: never overwrites, but takes the first free of stem.png, stem-2.png … in the
+/// folder and returns its path.
+std::string write_srgb8_image_uniquely(int width, int height, std::span<const std::uint8_t> rgb,
+                                       const std::string& folder, const std::string& stem,
+                                       ImageFormat format = ImageFormat::png);
+
 } // namespace candela

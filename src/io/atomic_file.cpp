@@ -1,0 +1,167 @@
+#include "io/atomic_file.h"
+
+#include "core/error.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace candela {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Error failed(const std::string& path, const char* what, int error) {
+  const char* remedy = error == ENOSPC || error == EDQUOT ? "free some disk space"
+                       : error == ENOENT                  ? "make its folder first"
+                                                          : "check the path and its permissions";
+  return output_error(path, fmt::format("{}: {}", what, std::strerror(error)), remedy);
+}
+
+/// The file that `path` stands for: links are followed, also to a file that does not exist yet.
+std::string follow_links(const std::string& path) {
+  fs::path at = path;
+  for (int i = 0; i < 40; ++i) { // as many as the kernel follows
+    std::error_code error;
+    fs::path next = fs::read_symlink(at, error);
+    if (error) return at.string();
+    at = next.is_absolute() ? next : at.parent_path() / next;
+  }
+  throw failed(path, "it cannot be written", ELOOP);
+}
+
+void write_all(int descriptor, std::span<const std::uint8_t> bytes, const std::string& path) {
+  while (!bytes.empty()) {
+    ssize_t done = ::write(descriptor, bytes.data(), bytes.size());
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) throw failed(path, "it cannot be written", errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(done));
+  }
+}
+
+/// Makes the new name itself survive a crash. Some file systems cannot sync a folder, and the file is whole
+/// either way, so a failure is no error.
+void sync_folder(const std::string& file) {
+  fs::path folder = fs::path(file).parent_path();
+  int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+bool is_special(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+}
+
+} // namespace
+
+PendingFile::PendingFile(const std::string& path) : path_(path), target_(follow_links(path)) {
+  struct stat status {};
+  bool replaces = ::stat(target_.c_str(), &status) == 0;
+  if (replaces && S_ISDIR(status.st_mode)) throw failed(path, "it cannot be written", EISDIR);
+  // rename would replace a file that its owner made read-only.
+  if (replaces && ::access(target_.c_str(), W_OK) != 0) throw failed(path, "it cannot be written", errno);
+  static std::atomic<unsigned> counter = 0;
+  fs::path folder = fs::path(target_).parent_path();
+  for (int attempt = 0; attempt < 1000 && descriptor_ < 0; ++attempt) {
+    // Short whatever the target's name is, which may have the greatest length itself.
+    temporary_ = (folder / fmt::format(".candela-{}-{}.tmp", ::getpid(), counter++)).string();
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno != EEXIST) break;
+  }
+  if (descriptor_ < 0) throw failed(path, "it cannot be written", errno);
+  // Where this is not allowed, the file has the usual permissions.
+  if (replaces && ::fchmod(descriptor_, status.st_mode & 07777) != 0) errno = 0;
+}
+
+PendingFile::~PendingFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void PendingFile::write(std::span<const std::uint8_t> bytes) { write_all(descriptor_, bytes, path_); }
+
+void PendingFile::flush() {
+  if (descriptor_ < 0) return;
+  if (::fsync(descriptor_) != 0) throw failed(path_, "it cannot be flushed to the disk", errno);
+  int result = ::close(descriptor_);
+  int error = errno;
+  descriptor_ = -1;
+  if (result != 0) throw failed(path_, "it cannot be written", error);
+}
+
+void PendingFile::commit() {
+  flush();
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0)
+    throw failed(path_, "it cannot be given its name", errno);
+  temporary_.clear();
+  sync_folder(target_);
+}
+
+bool PendingFile::commit_new(const std::string& path) {
+  flush();
+  if (::link(temporary_.c_str(), path.c_str()) == 0) {
+    ::unlink(temporary_.c_str());
+  } else {
+    if (errno == EEXIST) return false;
+    // A file system without hard links: reserve the name, then replace what was reserved.
+    int reserved = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (reserved < 0 && errno == EEXIST) return false;
+    if (reserved < 0) throw failed(path, "it cannot be written", errno);
+    ::close(reserved);
+    if (::rename(temporary_.c_str(), path.c_str()) != 0) {
+      int error = errno;
+      ::unlink(path.c_str());
+      throw failed(path, "it cannot be given its name", error);
+    }
+  }
+  temporary_.clear();
+  sync_folder(path);
+  return true;
+}
+
+void write_file_atomically(const std::string& path, std::span<const std::uint8_t> bytes) {
+  if (is_special(path)) {
+    int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) throw failed(path, "it cannot be written", errno);
+    try {
+      write_all(descriptor, bytes, path);
+    } catch (...) {
+      ::close(descriptor);
+      throw;
+    }
+    if (::close(descriptor) != 0) throw failed(path, "it cannot be written", errno);
+    return;
+  }
+  PendingFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
+void write_file_atomically(const std::string& path, std::string_view text) {
+  write_file_atomically(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+std::string write_file_uniquely(const std::string& folder, const std::string& stem, const std::string& ending,
+                                std::span<const std::uint8_t> bytes) {
+  auto candidate = [&](int i) {
+    return (fs::path(folder) / (i == 1 ? stem + ending : fmt::format("{}-{}{}", stem, i, ending))).string();
+  };
+  // The pending file needs a name in the folder only for its messages and its place.
+  PendingFile file((fs::path(folder) / fmt::format(".{}-new{}", stem, ending)).string());
+  file.write(bytes);
+  for (int i = 1; i < 1000000; ++i)
+    if (std::string path = candidate(i); file.commit_new(path)) return path;
+  throw output_error(candidate(1), "a million files have such names", "remove some of them");
+}
+
+} // namespace candela
