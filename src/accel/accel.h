@@ -98,8 +98,7 @@ public:
   static Accel build(const AccelInput& input, BuildQuality quality = BuildQuality::high);
 
   /// The closest hit with t in (t_min, t_max), or nothing. A negative t_min counts as 0. The direction is of
-  /// any length that is neither 0 nor close to the limits of float (1e-18 to 1e18); rays with NaN meet
-  /// nothing or something, but end.
+  /// any length from 1e-18 to 1e18; a ray that is not finite meets nothing.
   std::optional<Hit> intersect(const Ray& ray) const;
   /// Whether there is any hit with t in (t_min, t_max): exactly when intersect finds one.
   bool occluded(const Ray& ray) const;

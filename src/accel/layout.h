@@ -29,6 +29,7 @@ struct ChildRef {
   constexpr bool is_leaf() const { return bits & kLeafBit; }
   constexpr LeafKind kind() const { return static_cast<LeafKind>(bits >> 29 & 3); }
   constexpr std::uint32_t index() const { return bits & kIndexMask; }
+  bool operator==(const ChildRef&) const = default;
 };
 
 /// Boxes of eight children: box[axis][0] their lower and box[axis][1] their upper planes. Unused slots hold
@@ -36,6 +37,7 @@ struct ChildRef {
 struct alignas(64) WideNode {
   std::array<std::array<std::array<float, kWidth>, 2>, 3> box;
   std::array<ChildRef, kWidth> child;
+  bool operator==(const WideNode&) const = default;
 };
 
 /// vertex[k][axis] of eight triangles. Unused lanes repeat the last triangle, so that they need no mask: a
@@ -43,18 +45,21 @@ struct alignas(64) WideNode {
 struct alignas(64) TrianglePack {
   std::array<std::array<std::array<float, kWidth>, 3>, 3> vertex;
   std::array<std::uint32_t, kWidth> primitive;
+  bool operator==(const TrianglePack&) const = default;
 };
 
 struct alignas(32) SpherePack {
   std::array<std::array<float, kWidth>, 3> center;
   std::array<float, kWidth> radius;
   std::array<std::uint32_t, kWidth> primitive;
+  bool operator==(const SpherePack&) const = default;
 };
 
 struct alignas(32) DiscPack {
   std::array<std::array<float, kWidth>, 3> center, normal;
   std::array<float, kWidth> radius;
   std::array<std::uint32_t, kWidth> primitive;
+  bool operator==(const DiscPack&) const = default;
 };
 
 struct InstanceRecord {

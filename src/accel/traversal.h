@@ -67,6 +67,9 @@ private:
 
   bool run() {
     if (tree_.root.is_leaf()) return meet_leaf(tree_.root);
+    // NaN would meet every box and walk the whole tree.
+    vec3 sum = ray_.origin + ray_.direction;
+    if (!std::isfinite(sum.x + sum.y + sum.z)) return false;
     const BoxRay<F> box_ray(ray_, tree_.bounds);
     const F t_min(ray_.t_min);
     bool found = false;

@@ -145,6 +145,8 @@ public:
       ChildRef ref = emit(children[i], depth + 1);
       wide_.nodes[index].child[i] = ref; // not before: the vector may have moved
     }
+    // No ray meets an empty slot, but one of nonsense (NaN) must find a child there all the same.
+    for (std::size_t i = count; i < kWidth; ++i) wide_.nodes[index].child[i] = wide_.nodes[index].child[0];
     return ChildRef::node(index);
   }
 

@@ -1,0 +1,162 @@
+// Both implementations of eight floats, lane by lane against plain floats, and traversal with either.
+
+#include "accel/simd.h"
+#include "accel/traversal.h"
+#include "brute_force.h"
+
+#include <cstring>
+#include <omp.h>
+
+namespace {
+
+using namespace candela;
+using namespace candela::test;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+template <class F>
+class SimdFloat8 : public testing::Test {};
+using Implementations = testing::Types<simd::PortableFloat8, simd::Float8>;
+TYPED_TEST_SUITE(SimdFloat8, Implementations);
+
+struct alignas(32) Lanes {
+  std::array<float, 8> f;
+};
+
+template <class F, class Vector, class Scalar>
+void expect_lanes(Vector vector, Scalar scalar) {
+  const Lanes a{{1, -2, 0, kNaN, 4, kInfinity, -0.0f, 1e-40f}}, b{{2, -2, 3, 1, kNaN, -kInfinity, 0, 3}};
+  Lanes result;
+  vector(F::load(a.f.data()), F::load(b.f.data())).store(result.f.data());
+  for (std::size_t i = 0; i < 8; ++i) {
+    float expected = scalar(a.f[i], b.f[i]);
+    if (std::isnan(expected))
+      EXPECT_TRUE(std::isnan(result.f[i])) << i;
+    else
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(result.f[i]), std::bit_cast<std::uint32_t>(expected)) << i;
+  }
+}
+
+TYPED_TEST(SimdFloat8, Arithmetic) {
+  using F = TypeParam;
+  expect_lanes<F>([](F a, F b) { return a + b; }, [](float a, float b) { return a + b; });
+  expect_lanes<F>([](F a, F b) { return a - b; }, [](float a, float b) { return a - b; });
+  expect_lanes<F>([](F a, F b) { return a * b; }, [](float a, float b) { return a * b; });
+  expect_lanes<F>([](F a, F b) { return a / b; }, [](float a, float b) { return a / b; });
+  expect_lanes<F>([](F a, F) { return sqrt(a); }, [](float a, float) { return std::sqrt(a); });
+  expect_lanes<F>([](F a, F b) { return a + F(2.5f) * b; }, [](float a, float b) { return a + 2.5f * b; });
+}
+
+/// The operand that NaN yields is part of the contract.
+TYPED_TEST(SimdFloat8, MinMaxAndSelect) {
+  using F = TypeParam;
+  expect_lanes<F>([](F a, F b) { return min(a, b); }, [](float a, float b) { return a < b ? a : b; });
+  expect_lanes<F>([](F a, F b) { return max(a, b); }, [](float a, float b) { return a > b ? a : b; });
+  expect_lanes<F>([](F a, F b) { return select_less(a, b, F(1.0f), a); },
+                  [](float a, float b) { return a < b ? 1.0f : a; });
+  expect_lanes<F>([](F a, F b) { return simd::with_sign_of(b, a); },
+                  [](float a, float b) { return a < 0 ? 0.0f - b : b; });
+}
+
+TYPED_TEST(SimdFloat8, Comparisons) {
+  using F = TypeParam;
+  const Lanes a{{1, 2, 3, kNaN, 5, 6, -0.0f, 8}}, b{{1, 3, 2, 4, kNaN, 6, 0, kInfinity}};
+  F x = F::load(a.f.data()), y = F::load(b.f.data());
+  EXPECT_EQ(less(x, y), 0b10000010u);
+  EXPECT_EQ(less_equal(x, y), 0b11100011u);
+  EXPECT_EQ(equal(x, y), 0b01100001u);
+  EXPECT_EQ(equal(x, x), 0b11110111u);
+}
+
+TEST(Simd, LoopsOverLanesInOrder) {
+  std::vector<int> lanes;
+  simd::for_each_lane(0b10010110u, [&](int lane) { lanes.push_back(lane); });
+  EXPECT_EQ(lanes, (std::vector{1, 2, 4, 7}));
+}
+
+TestScene mixed_scene(int triangles, float size) {
+  Random random(11);
+  TestScene scene;
+  for (int i = 0; i < triangles; ++i) {
+    vec3 c = random.in_cube(), a = c + random.in_cube(size);
+    scene.add_triangle(c, a, c + random.in_cube(size));
+  }
+  for (int i = 0; i < triangles / 10; ++i) {
+    vec3 c = random.in_cube(), n = random.direction();
+    scene.spheres.push_back({random.in_cube(), 0.5f * size});
+    scene.discs.push_back({c, size, n});
+  }
+  return scene;
+}
+
+/// The same bits from both, including which of two hits at the same t wins.
+TEST(AccelPortable, FindsTheSameHits) {
+  TestScene scene = mixed_scene(3000, 0.1f);
+  scene.triangles.insert(scene.triangles.end(), scene.triangles.begin(), scene.triangles.begin() + 1000);
+  Accel accel = Accel::build(scene.input());
+  const AccelTree& tree = *AccelAccess::tree(accel);
+  Random random(12);
+  int hits = 0;
+  for (int i = 0; i < 50000; ++i) {
+    vec3 origin = random.in_cube(2);
+    Ray ray{origin, 0, random.in_cube() - origin, i % 4 ? kInfinity : 0.7f};
+    if (i % 7 == 0) ray.direction.x = 0;
+    Hit portable;
+    bool found = accel_detail::Tracer<simd::PortableFloat8, false>::trace(tree, ray, portable);
+    auto hit = accel.intersect(ray);
+    ASSERT_EQ(found, hit.has_value());
+    Hit unused;
+    ASSERT_EQ((accel_detail::Tracer<simd::PortableFloat8, true>::trace(tree, ray, unused)),
+              accel.occluded(ray));
+    if (!found) continue;
+    ++hits;
+    ASSERT_EQ(portable.t, hit->t);
+    ASSERT_EQ(portable.u, hit->u);
+    ASSERT_EQ(portable.v, hit->v);
+    ASSERT_EQ(portable.primitive, hit->primitive);
+    ASSERT_EQ(portable.kind, hit->kind);
+  }
+  EXPECT_GT(hits, 20000);
+}
+
+/// Large enough for every parallel path of the build.
+TEST(AccelDeterminism, AnyNumberOfThreadsBuildsTheSameTree) {
+  TestScene scene = mixed_scene(280000, 0.01f);
+  int threads_before = omp_get_max_threads();
+  for (BuildQuality quality : {BuildQuality::fast, BuildQuality::high}) {
+    omp_set_num_threads(1);
+    Accel one = Accel::build(scene.input(), quality);
+    const AccelTree& a = *AccelAccess::tree(one);
+    for (int threads : {2, 5}) {
+      omp_set_num_threads(threads);
+      Accel other = Accel::build(scene.input(), quality);
+      const AccelTree& b = *AccelAccess::tree(other);
+      EXPECT_TRUE(a.nodes == b.nodes) << threads;
+      EXPECT_TRUE(a.triangles == b.triangles) << threads;
+      EXPECT_TRUE(a.spheres == b.spheres) << threads;
+      EXPECT_TRUE(a.discs == b.discs) << threads;
+      EXPECT_TRUE(a.root == b.root);
+    }
+  }
+  omp_set_num_threads(threads_before);
+}
+
+TEST(AccelStatistics, AddUp) {
+  TestScene scene = mixed_scene(1000, 0.1f);
+  Accel high = Accel::build(scene.input()), fast = Accel::build(scene.input(), BuildQuality::fast);
+  for (const Accel* accel : {&high, &fast}) {
+    AccelStats stats = accel->stats();
+    const AccelTree& tree = *AccelAccess::tree(*accel);
+    EXPECT_EQ(stats.triangles, 1000u);
+    EXPECT_EQ(stats.spheres, 100u);
+    EXPECT_EQ(stats.discs, 100u);
+    EXPECT_EQ(stats.leaves, tree.triangles.size() + tree.spheres.size() + tree.discs.size());
+    EXPECT_EQ(accel->memory_bytes(), stats.bytes);
+    EXPECT_GT(stats.bytes, stats.triangles * 40);
+    EXPECT_GT(stats.depth, 1);
+  }
+  // What the dynamic programming is for.
+  EXPECT_LT(high.stats().sah_cost, fast.stats().sah_cost);
+}
+
+} // namespace

@@ -1,0 +1,103 @@
+// From inside a closed mesh no ray gets out: not through edges, not through vertices, wherever the mesh lies.
+
+#include "accel/accel.h"
+#include "brute_force.h"
+#include "support/seed.h"
+
+namespace {
+
+using namespace candela;
+using namespace candela::test;
+
+/// A cube's surface of n x n x 2 triangles a side, welded, then mapped.
+template <class Map>
+TestScene closed_mesh(int n, Map map) {
+  TestScene scene;
+  std::vector<std::uint32_t> index(static_cast<std::size_t>((n + 1) * (n + 1) * (n + 1)), ~0u);
+  auto vertex = [&](int x, int y, int z) {
+    std::uint32_t& i = index[static_cast<std::size_t>((z * (n + 1) + y) * (n + 1) + x)];
+    if (i == ~0u) {
+      i = static_cast<std::uint32_t>(scene.vertices.size());
+      scene.vertices.push_back(map(vec3(x, y, z) * (2.0f / static_cast<float>(n)) - 1.0f));
+    }
+    return i;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side <= n; side += n)
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          auto at = [&](int a, int b) {
+            return axis == 0 ? vertex(side, a, b) : axis == 1 ? vertex(a, side, b) : vertex(a, b, side);
+          };
+          std::uint32_t a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+          if ((i + j) % 2)
+            scene.triangles.insert(scene.triangles.end(), {{a, b, c}, {a, c, d}});
+          else
+            scene.triangles.insert(scene.triangles.end(), {{a, b, d}, {b, c, d}});
+        }
+  return scene;
+}
+
+/// Rays from near `inside` to vertices, to points on edges, and anywhere.
+void expect_no_leak(const TestScene& scene, vec3 inside, float room, Random& random, int rays) {
+  Accel accel = Accel::build(scene.input());
+  ASSERT_EQ(accel.stats().skipped, 0u);
+  int leaks = 0;
+  for (int i = 0; i < rays; ++i) {
+    vec3 origin = inside + random.in_cube(room);
+    if (i % 5 == 0) origin = inside; // more rays with equal coordinates, zero components, exact diagonals
+    uvec3 t = scene.triangles[random.below(static_cast<std::uint32_t>(scene.triangles.size()))];
+    vec3 a = scene.vertices[t.x], b = scene.vertices[t.y];
+    vec3 target = i % 3 == 0 ? a : i % 3 == 1 ? a + random.uniform() * (b - a) : origin + random.direction();
+    if (i % 3 == 1 && i % 2) target = 0.5f * (a + b);
+    Ray ray{origin, 0, target - origin, kInfinity};
+    if (ray.direction == vec3(0)) continue;
+    if (!accel.intersect(ray) || !accel.occluded(ray)) {
+      if (++leaks == 1)
+        ADD_FAILURE() << "leak: origin " << origin.x << " " << origin.y << " " << origin.z << " direction "
+                      << ray.direction.x << " " << ray.direction.y << " " << ray.direction.z;
+    }
+  }
+  EXPECT_EQ(leaks, 0);
+}
+
+class AccelWatertight : public testing::Test {
+protected:
+  Random random{fresh_seed()};
+  testing::ScopedTrace trace{__FILE__, __LINE__, seed_note()};
+};
+
+TEST_F(AccelWatertight, Cube) {
+  // Axis-parallel faces: boxes without thickness, edges at exact lattice points.
+  expect_no_leak(closed_mesh(1, [](vec3 p) { return p; }), vec3(0), 0.5f, random, 200000);
+  expect_no_leak(closed_mesh(16, [](vec3 p) { return p; }), vec3(0), 0.5f, random, 400000);
+}
+
+TEST_F(AccelWatertight, RoundAndBumpy) {
+  auto bumpy = [](vec3 p) {
+    vec3 d = glm::normalize(p);
+    return d * (1 + 0.1f * std::sin(9 * d.x) * std::sin(8 * d.y) + 0.02f * std::sin(50 * d.z));
+  };
+  expect_no_leak(closed_mesh(48, bumpy), vec3(0), 0.4f, random, 1000000);
+}
+
+TEST_F(AccelWatertight, ThinAndSlanted) {
+  // A long box turned out of all axes: slivers, and boxes much larger than their triangles.
+  mat4 m = glm::rotate(mat4(1), 0.7f, glm::normalize(vec3(1, 2, 3)));
+  m = glm::scale(m, vec3(100, 1, 0.1f));
+  expect_no_leak(closed_mesh(12, [&](vec3 p) { return transform_point(m, p); }), vec3(0), 0.01f, random,
+                 400000);
+}
+
+TEST_F(AccelWatertight, FarFromTheOrigin) {
+  // Coordinates with few bits left for the shape, and tiny and huge ones.
+  for (auto [offset, size] : {std::pair(vec3(1000, -3000, 2000), 1.0f),
+                              {vec3(0), 1e-6f},
+                              {vec3(0), 1e9f},
+                              {vec3(16, 0, 0), 1e-3f}}) {
+    auto place = [offset = offset, size = size](vec3 p) { return offset + size * glm::normalize(p); };
+    expect_no_leak(closed_mesh(12, place), offset, 0.4f * size, random, 200000);
+  }
+}
+
+} // namespace
