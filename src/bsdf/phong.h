@@ -2,7 +2,7 @@
 
 #include "bsdf/bsdf_sample.h"
 #include "core/color.h"
-#include "core/frame.h"
+#include "core/basis.h"
 #include "sampling/warp.h"
 
 namespace candela {
@@ -39,7 +39,7 @@ struct Phong {
       float v = std::min(glm::dot(d, d), kOneMinusEpsilon);
       float one_minus_cos = -std::expm1(std::log1p(-v) / (exponent + 1));
       float scale = v > 0 ? safe_sqrt(one_minus_cos * (2 - one_minus_cos) / v) : 0;
-      wi = Frame::from_normal(reflect_about_normal(wo)).to_world({d * scale, 1 - one_minus_cos});
+      wi = Basis::from_normal(reflect_about_normal(wo)).to_world({d * scale, 1 - one_minus_cos});
     } else {
       wi = to_side_of(wo, sample_cosine_hemisphere({u.x, u.y}));
     }

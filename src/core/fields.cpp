@@ -24,13 +24,8 @@ int load_choice(const void* address) {
   return value;
 }
 
-/// 180/pi in double and a rounding that gives back "45" for the float nearest to pi/4.
-std::string angle_text(float radians_value) {
-  float deg = static_cast<float>(static_cast<double>(radians_value) * (180.0 / std::numbers::pi));
-  return fmt::format("{}", deg);
-}
-
 float angle_value(double deg) { return static_cast<float>(deg * (std::numbers::pi / 180.0)); }
+
 
 std::vector<std::string_view> words(std::string_view text) {
   std::vector<std::string_view> out;
@@ -55,6 +50,19 @@ bool parse_number(std::string_view word, T& value) {
 Error bad_value(const FieldInfo& field, std::string_view text) {
   return usage_error(field.key, fmt::format("'{}' does not fit", text),
                      fmt::format("give {}", field_domain(field)));
+}
+
+/// Degrees that read back to the same float of radians, as short as may be ("45" for the float nearest to
+/// pi/4). Floats of degrees can lie farther apart than those of radians, so that some need more digits.
+std::string angle_text(float radians_value) {
+  double deg = static_cast<double>(radians_value) * (180.0 / std::numbers::pi);
+  std::string text = fmt::format("{}", static_cast<float>(deg));
+  for (int digits = 8; digits <= 17; ++digits) {
+    double read = 0;
+    if (parse_number(text, read) && angle_value(read) == radians_value) break;
+    text = fmt::format("{:.{}g}", deg, digits);
+  }
+  return text;
 }
 
 bool in_range(const FieldInfo& field, double value) {

@@ -5,11 +5,11 @@
 
 namespace candela {
 
-struct Frame {
+struct Basis {
   vec3 s{1, 0, 0}, t{0, 1, 0}, n{0, 0, 1};
 
   /// From a unit normal, without branches (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
-  static Frame from_normal(vec3 n) {
+  static Basis from_normal(vec3 n) {
     float sign = std::copysign(1.0f, n.z);
     float a = -1.0f / (sign + n.z);
     float b = n.x * n.y * a;

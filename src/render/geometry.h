@@ -1,0 +1,102 @@
+#pragma once
+// What the instances of a scene become: one acceleration structure and, per primitive, what shading needs. It
+// depends on shapes, transforms and the materials' indices, not on the materials themselves, so edits of
+// those keep it.
+
+#include "accel/accel.h"
+#include "scene/scene_desc.h"
+
+namespace candela {
+
+/// Where a ray met the scene. World space.
+struct Surface {
+  vec3 position{0};
+  vec3 position_error{0};         ///< absolute bound per axis
+  vec3 geometric_normal{0, 0, 1}; ///< unit; to the outside of spheres, by the winding of triangles
+  vec3 shading_normal{0, 0, 1};   ///< unit, on the side of geometric_normal
+  vec2 uv{0};
+  std::uint32_t material = 0; ///< index into SceneDesc::materials
+  std::uint32_t emitter = 0;  ///< number among all primitives, see Geometry::emitter_count
+};
+
+/// Triangles in world space (a mesh that is placed once, a rectangle) or in the space of an object that
+/// several instances share.
+struct TriangleSet {
+  std::vector<vec3> positions;
+  std::vector<vec3> normals; ///< parallel to positions if not empty; a zero one means flat
+  std::vector<vec2> uvs;     ///< parallel to positions if not empty
+  std::vector<uvec3> triangles;
+  std::vector<std::uint32_t> materials; ///< per triangle: a material, or a slot for shared objects
+};
+
+/// A placed rectangle, as a light samples it whole rather than as its two triangles.
+struct RectangleGeometry {
+  vec3 corner, edge_x, edge_y;  ///< edge_x x edge_y points along the normal
+  std::uint32_t first_triangle; ///< of two
+};
+
+class Geometry {
+public:
+  /// Bakes and builds. Spheres and discs that their transform would make ellipsoids are made of triangles.
+  static std::shared_ptr<const Geometry> build(const std::vector<Instance>& instances,
+                                               BuildQuality quality = BuildQuality::high);
+
+  const Accel& accel() const { return accel_; }
+  /// Fills in the rest of what is known about a hit of `ray`.
+  Surface surface(const Ray& ray, const Hit& hit) const;
+  /// Material index of a hit, without the rest: what opacity needs.
+  std::uint32_t material_of(const Hit& hit) const;
+  /// Index into the instances that were built from.
+  std::uint32_t instance_of(const Hit& hit) const;
+
+  Bounds3 bounds() const { return accel_.bounds(); }
+  std::size_t memory_bytes() const;
+
+  /// Every primitive that could emit has a number: world triangles, then spheres, discs, then triangles of
+  /// instances.
+  std::uint32_t emitter_count() const { return emitter_count_; }
+  std::uint32_t sphere_emitter(std::size_t i) const {
+    return static_cast<std::uint32_t>(world_.triangles.size() + i);
+  }
+  std::uint32_t disc_emitter(std::size_t i) const {
+    return sphere_emitter(spheres_.size()) + static_cast<std::uint32_t>(i);
+  }
+
+  struct Placed { ///< an instance of a shared object
+    std::uint32_t object;
+    mat4 world_from_object, object_from_world;
+    mat3 normal_to_world; ///< inverse transpose
+    std::vector<std::uint32_t> slot_materials;
+    std::uint32_t first_emitter;
+    std::uint32_t instance;
+  };
+  struct Object {
+    TriangleSet set;
+    Accel accel;
+  };
+
+  const TriangleSet& world() const { return world_; }
+  const std::vector<SphereGeometry>& spheres() const { return spheres_; }
+  const std::vector<DiscGeometry>& discs() const { return discs_; }
+  const std::vector<std::uint32_t>& sphere_materials() const { return sphere_materials_; }
+  const std::vector<std::uint32_t>& disc_materials() const { return disc_materials_; }
+  const std::vector<RectangleGeometry>& rectangles() const { return rectangles_; }
+  const std::vector<Placed>& placed() const { return placed_; }
+  const std::vector<std::unique_ptr<Object>>& objects() const { return objects_; }
+
+private:
+  friend class GeometryBuilder;
+  TriangleSet world_;
+  std::vector<std::uint32_t> first_triangle_of_; ///< sorted, parallel to triangle_instances_
+  std::vector<std::uint32_t> triangle_instances_;
+  std::vector<SphereGeometry> spheres_;
+  std::vector<DiscGeometry> discs_;
+  std::vector<std::uint32_t> sphere_materials_, disc_materials_, sphere_instances_, disc_instances_;
+  std::vector<RectangleGeometry> rectangles_;
+  std::vector<std::unique_ptr<Object>> objects_; ///< stable addresses: the top level refers to their accels
+  std::vector<Placed> placed_;
+  std::uint32_t emitter_count_ = 0;
+  Accel accel_;
+};
+
+} // namespace candela

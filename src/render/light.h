@@ -1,0 +1,123 @@
+#pragma once
+// Lights as the integrator samples them. Shapes shine by their material; the others come from LightDesc.
+
+#include "core/basis.h"
+#include "core/ray.h"
+#include "sampling/spherical_rectangle.h"
+#include "sampling/warp.h"
+
+#include <optional>
+#include <variant>
+
+namespace candela {
+
+/// The point that looks for light.
+struct LightReference {
+  vec3 position{0};
+  vec3 normal{0, 0, 1}; ///< unit geometric normal, turned to the side that reflects
+};
+
+struct LightSample {
+  vec3 direction{0};    ///< unit, from the reference towards the light
+  vec3 point{0};        ///< on the light; unused where `infinite`
+  vec3 point_error{0};  ///< absolute bound per axis
+  vec3 point_normal{0}; ///< unit geometric normal there; zero for a point light
+  vec3 radiance{
+      0}; ///< W/(m^2 sr) arriving if nothing is between; for delta lights: irradiance on a facing plane
+  float pdf = 0;      ///< 1/sr at the reference; 1 for delta lights
+  bool delta = false; ///< no other strategy can find it
+  bool infinite = false;
+};
+
+/// What every light offers.
+/// - sample: nothing where the light cannot be seen from the reference. `u` in [0, 1)^2.
+/// - pdf: density in 1/sr with which sample() gives the direction towards `point` (area lights; `normal` is
+/// the
+///   light's there) or towards `direction` (infinite ones); 0 where it gives none.
+struct TriangleLight {
+  vec3 corner{0}, edge1{0}, edge2{0}, normal{0}; ///< normal: unit
+  float area = 0;
+  vec3 emission{0};
+  bool two_sided = false;
+
+  std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
+  float pdf(const LightReference& ref, vec3 point, vec3 direction) const;
+};
+
+/// Sampled in solid angle (Ureña et al. 2013), by area where it covers too little of the sphere for that.
+struct RectangleLight {
+  vec3 corner{0}, edge_x{0}, edge_y{0}, normal{0};
+  float area = 0;
+  vec3 emission{0};
+  bool two_sided = false;
+
+  std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
+  float pdf(const LightReference& ref, vec3 point, vec3 direction) const;
+};
+
+/// Sampled in the cone that it covers; from inside (two-sided only) by area.
+struct SphereLight {
+  vec3 center{0};
+  float radius = 1;
+  vec3 emission{0};
+  bool two_sided = false;
+
+  std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
+  float pdf(const LightReference& ref, vec3 point, vec3 direction) const;
+};
+
+struct DiscLight {
+  vec3 center{0}, normal{0};
+  float radius = 1;
+  vec3 emission{0};
+  bool two_sided = false;
+
+  std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
+  float pdf(const LightReference& ref, vec3 point, vec3 direction) const;
+};
+
+struct PointLight {
+  vec3 position{0};
+  vec3 intensity{0}; ///< W/sr
+
+  std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
+  float pdf(const LightReference&, vec3, vec3) const { return 0; }
+};
+
+struct DirectionalLight {
+  vec3 direction{0, -1, 0}; ///< unit, along which it travels
+  vec3 irradiance{0};       ///< W/m^2 on a plane that faces it
+
+  std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
+  float pdf(const LightReference&, vec3, vec3) const { return 0; }
+};
+
+/// The same radiance from everywhere; all that looks for it reflects, so the hemisphere around its normal is
+/// sampled by the cosine.
+struct ConstantLight {
+  vec3 radiance{0};
+
+  std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
+  float pdf(const LightReference& ref, vec3, vec3 direction) const {
+    return cosine_hemisphere_pdf(glm::dot(ref.normal, direction));
+  }
+};
+
+using Light = std::variant<RectangleLight, TriangleLight, SphereLight, DiscLight, PointLight,
+                           DirectionalLight, ConstantLight>;
+
+inline std::optional<LightSample> sample_light(const Light& light, const LightReference& ref, vec2 u) {
+  return std::visit([&](const auto& l) { return l.sample(ref, u); }, light);
+}
+inline float light_pdf(const Light& light, const LightReference& ref, vec3 point, vec3 direction) {
+  return std::visit([&](const auto& l) { return l.pdf(ref, point, direction); }, light);
+}
+inline bool is_delta_light(const Light& light) {
+  return std::holds_alternative<PointLight>(light) || std::holds_alternative<DirectionalLight>(light);
+}
+
+/// Emitted power in W for choosing among lights; of infinite ones that which meets a scene of the given
+/// radius.
+float light_power(const Light& light, float scene_radius);
+
+} // namespace candela

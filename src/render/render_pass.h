@@ -1,0 +1,49 @@
+#pragma once
+// One pass over the film: the unit of work of the session and of the command line.
+
+#include "render/film.h"
+#include "render/path_integrator.h"
+
+#include <atomic>
+#include <span>
+
+namespace candela {
+
+/// Which samples of which pixels. The first pass of an interactive render visits the pixels of a coarse
+/// lattice first, then those of finer ones: every level adds its own pixels' sample 0, so nothing is traced
+/// twice or thrown away.
+struct SampleRange {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 1;
+  int lattice = 1;      ///< pixels whose x and y are multiples of it ...
+  int skip_lattice = 0; ///< ... but not both of this one; 0: skip none
+};
+
+struct CropWindow { ///< pixels; empty width or height: the whole film
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+struct PassOptions {
+  int threads = 0; ///< 0: every core
+  CropWindow crop;
+};
+
+struct PassResult {
+  bool completed = false;
+  RayCounts rays;
+  NonFiniteLog nonfinite;
+};
+
+/// Adds the range's samples to the film. The samples do not depend on threads, tiles or earlier passes. Polls
+/// `stop` between rows of tiles and ends early where it is set; the film then holds whole samples, of some
+/// pixels more than of others. Samples that are not finite are logged, not added.
+PassResult render_pass(const RenderScene& scene, const Document& document, const SampleRange& range,
+                       Film& film, const std::atomic<bool>& stop, const PassOptions& options = {});
+
+/// One sample again, alone, bit for bit as the pass traced it.
+vec3 replay_sample(const RenderScene& scene, const Document& document, uvec2 pixel, std::uint32_t sample);
+
+/// Factor that makes the view displayable: the depth view is shown relative to the scene's diagonal.
+float display_scale(const RenderScene& scene, const RenderSettings& settings);
+
+} // namespace candela

@@ -1,0 +1,174 @@
+#include "render/render_scene.h"
+
+#include "render/texture_lookup.h"
+
+namespace candela {
+
+namespace {
+
+Bsdf make_bsdf(MaterialType type, vec3 diffuse, vec3 specular, float exponent, float roughness, float ior,
+               vec3 transmittance) {
+  switch (type) {
+  case MaterialType::diffuse: return Diffuse{diffuse};
+  // No reflection gives back more than it got: where both lobes ask for more than 1, the diffuse one gives
+  // in.
+  case MaterialType::phong: return Phong{glm::min(diffuse, 1.0f - specular), specular, exponent};
+  case MaterialType::ggx: return Ggx(specular, roughness);
+  case MaterialType::mirror: return Mirror{specular, glm::min(diffuse, 1.0f - specular)};
+  case MaterialType::dielectric: return Dielectric{ior, transmittance};
+  }
+  return Diffuse{diffuse};
+}
+
+MaterialType override_type(BrdfOverride o) { return static_cast<MaterialType>(static_cast<int>(o) - 1); }
+
+} // namespace
+
+std::shared_ptr<const RenderScene> RenderScene::build(const Document& document, const RenderScene* previous,
+                                                      BuildQuality quality) {
+  auto scene = std::make_shared<RenderScene>();
+  const SceneDesc& desc = document.scene;
+  bool same = previous != nullptr && previous->instances_ == desc.instances;
+  scene->geometry_ = same ? previous->geometry_ : Geometry::build(desc.instances, quality);
+  scene->instances_ = desc.instances;
+  scene->textures_ = desc.textures;
+  scene->add_materials(document);
+  scene->add_emitters();
+  scene->add_lights(desc.lights);
+
+  std::vector<float> power, delta_power;
+  Bounds3 bounds = scene->geometry_->bounds();
+  float radius = bounds.empty() ? 1.0f : std::max(0.5f * glm::length(bounds.diagonal()), 1e-6f);
+  for (const Light& light : scene->lights_) {
+    power.push_back(light_power(light, radius));
+    delta_power.push_back(is_delta_light(light) ? power.back() : 0.0f);
+  }
+  scene->all_lights_ = AliasTable(power);
+  scene->delta_lights_ = AliasTable(delta_power);
+  return scene;
+}
+
+void RenderScene::add_materials(const Document& document) {
+  const OverrideSettings& o = document.settings.override_brdf;
+  for (const Material& m : document.scene.materials) {
+    SurfaceMaterial s;
+    if (o.brdf != BrdfOverride::none) {
+      s.bsdf =
+          make_bsdf(override_type(o.brdf), o.diffuse, o.specular, o.exponent, o.roughness, o.ior, vec3(1));
+    } else {
+      s.bsdf = make_bsdf(m.type, m.diffuse, m.specular, m.exponent, m.roughness, m.ior, m.transmittance);
+      if (m.diffuse_texture >= 0)
+        s.diffuse_texture = textures_[static_cast<std::size_t>(m.diffuse_texture)].get();
+      s.absorbing = m.type == MaterialType::dielectric && !is_black(m.absorption);
+      s.absorption = m.absorption;
+    }
+    s.opacity = m.opacity;
+    s.emission = m.emission;
+    s.emissive = !is_black(m.emission);
+    s.two_sided_emission = m.two_sided_emission;
+    has_transparency_ |= m.opacity < 1;
+    materials_.push_back(s);
+  }
+}
+
+void RenderScene::add_emitters() {
+  bool any = false;
+  for (const SurfaceMaterial& m : materials_) any |= m.emissive;
+  if (!any) return;
+  const Geometry& g = *geometry_;
+  light_of_emitter_.assign(g.emitter_count(), kNoLight);
+  auto add = [&](std::uint32_t emitter, Light light) {
+    light_of_emitter_[emitter] = static_cast<std::uint32_t>(lights_.size());
+    lights_.push_back(light);
+  };
+  auto add_triangle = [&](std::uint32_t emitter, vec3 p0, vec3 p1, vec3 p2, vec3 outside,
+                          const SurfaceMaterial& m) {
+    vec3 c = glm::cross(p1 - p0, p2 - p0);
+    float double_area = glm::length(c);
+    if (!(double_area > 0)) return; // no ray meets it either
+    vec3 n = c / double_area;
+    if (glm::dot(n, outside) < 0) n = -n;
+    add(emitter,
+        TriangleLight{p0, p1 - p0, p2 - p0, n, 0.5f * double_area, m.emission, m.two_sided_emission});
+  };
+
+  for (const RectangleGeometry& r : g.rectangles()) {
+    const SurfaceMaterial& m = materials_[g.world().materials[r.first_triangle]];
+    // Sheared ones are left to their triangles below.
+    float lengths = glm::length(r.edge_x) * glm::length(r.edge_y);
+    if (!m.emissive || std::abs(glm::dot(r.edge_x, r.edge_y)) > 1e-6f * lengths) continue;
+    vec3 c = glm::cross(r.edge_x, r.edge_y);
+    float area = glm::length(c);
+    if (!(area > 0)) continue;
+    add(r.first_triangle,
+        RectangleLight{r.corner, r.edge_x, r.edge_y, c / area, area, m.emission, m.two_sided_emission});
+    light_of_emitter_[r.first_triangle + 1] = light_of_emitter_[r.first_triangle];
+  }
+  const TriangleSet& world = g.world();
+  for (std::uint32_t i = 0; i < world.triangles.size(); ++i) {
+    const SurfaceMaterial& m = materials_[world.materials[i]];
+    if (!m.emissive || light_of_emitter_[i] != kNoLight) continue;
+    uvec3 t = world.triangles[i];
+    vec3 p0 = world.positions[t.x], p1 = world.positions[t.y], p2 = world.positions[t.z];
+    add_triangle(i, p0, p1, p2, glm::cross(p1 - p0, p2 - p0), m);
+  }
+  for (std::size_t i = 0; i < g.spheres().size(); ++i)
+    if (const SurfaceMaterial& m = materials_[g.sphere_materials()[i]]; m.emissive)
+      add(g.sphere_emitter(i),
+          SphereLight{g.spheres()[i].center, g.spheres()[i].radius, m.emission, m.two_sided_emission});
+  for (std::size_t i = 0; i < g.discs().size(); ++i)
+    if (const SurfaceMaterial& m = materials_[g.disc_materials()[i]]; m.emissive)
+      add(g.disc_emitter(i), DiscLight{g.discs()[i].center, g.discs()[i].normal, g.discs()[i].radius,
+                                       m.emission, m.two_sided_emission});
+  for (const Geometry::Placed& p : g.placed()) {
+    const TriangleSet& set = g.objects()[p.object]->set;
+    for (std::uint32_t i = 0; i < set.triangles.size(); ++i) {
+      const SurfaceMaterial& m = materials_[p.slot_materials[set.materials[i]]];
+      if (!m.emissive) continue;
+      uvec3 t = set.triangles[i];
+      vec3 p0 = set.positions[t.x], p1 = set.positions[t.y], p2 = set.positions[t.z];
+      vec3 outside = p.normal_to_world * glm::cross(p1 - p0, p2 - p0);
+      const mat4& w = p.world_from_object;
+      add_triangle(p.first_emitter + i, transform_point(w, p0), transform_point(w, p1),
+                   transform_point(w, p2), outside, m);
+    }
+  }
+}
+
+void RenderScene::add_lights(const std::vector<LightDesc>& lights) {
+  for (const LightDesc& l : lights) {
+    vec3 color = l.color * l.scale;
+    if (is_black(color)) continue;
+    switch (l.type) {
+    case LightType::point: lights_.emplace_back(PointLight{l.position, color}); break;
+    case LightType::directional:
+      lights_.emplace_back(DirectionalLight{glm::normalize(l.direction), color});
+      break;
+    case LightType::constant:
+      infinite_lights_.push_back(static_cast<std::uint32_t>(lights_.size()));
+      lights_.emplace_back(ConstantLight{color});
+      break;
+    }
+  }
+}
+
+std::size_t RenderScene::memory_bytes() const {
+  std::size_t bytes = geometry_->memory_bytes() + materials_.size() * sizeof(SurfaceMaterial) +
+                      lights_.size() * sizeof(Light) + light_of_emitter_.size() * sizeof(std::uint32_t);
+  for (const auto& texture : textures_) bytes += texture->srgb.size();
+  return bytes;
+}
+
+Bsdf evaluate_bsdf(const SurfaceMaterial& material, const Surface& surface) {
+  Bsdf bsdf = material.bsdf;
+  vec3 texel = lookup_bilinear(*material.diffuse_texture, surface.uv);
+  if (auto* d = std::get_if<Diffuse>(&bsdf))
+    d->reflectance *= texel;
+  else if (auto* p = std::get_if<Phong>(&bsdf))
+    p->diffuse *= texel;
+  else if (auto* m = std::get_if<Mirror>(&bsdf))
+    m->diffuse *= texel;
+  return bsdf;
+}
+
+} // namespace candela

@@ -1,0 +1,71 @@
+#pragma once
+// A Document made ready to render; const while it is.
+
+#include "bsdf/bsdf.h"
+#include "render/geometry.h"
+#include "render/light.h"
+#include "sampling/distribution.h"
+#include "scene/document.h"
+
+namespace candela {
+
+/// A material as shading needs it.
+struct SurfaceMaterial {
+  Bsdf bsdf;
+  const Texture* diffuse_texture = nullptr; ///< multiplies the BSDF's diffuse part; null: none
+  vec3 emission{0};                         ///< W/(m^2 sr)
+  vec3 absorption{0};                       ///< sigma_a inside, 1/scene unit
+  float opacity = 1;
+  bool emissive = false;
+  bool two_sided_emission = false;
+  bool absorbing = false;
+};
+
+inline constexpr std::uint32_t kNoLight = 0xffffffffu;
+
+class RenderScene {
+public:
+  /// Reuses the geometry of `previous` where the instances are the same.
+  static std::shared_ptr<const RenderScene> build(const Document& document,
+                                                  const RenderScene* previous = nullptr,
+                                                  BuildQuality quality = BuildQuality::high);
+
+  const Geometry& geometry() const { return *geometry_; }
+  const SurfaceMaterial& material(std::uint32_t index) const { return materials_[index]; }
+  /// Whether any surface lets light straight through, so that rays must look.
+  bool has_transparency() const { return has_transparency_; }
+
+  const std::vector<Light>& lights() const { return lights_; }
+  /// The light that a primitive is (part of), or kNoLight.
+  std::uint32_t light_of(std::uint32_t emitter) const {
+    return light_of_emitter_.empty() ? kNoLight : light_of_emitter_[emitter];
+  }
+  const std::vector<std::uint32_t>& infinite_lights() const { return infinite_lights_; }
+
+  /// Choice of a light in proportion to its power: among all, or among those that no direction can hit by
+  /// chance.
+  const AliasTable& all_lights() const { return all_lights_; }
+  const AliasTable& delta_lights() const { return delta_lights_; }
+
+  std::size_t memory_bytes() const;
+
+private:
+  std::shared_ptr<const Geometry> geometry_;
+  std::vector<Instance> instances_; ///< what geometry_ was built from
+  std::vector<std::shared_ptr<const Texture>> textures_;
+  std::vector<SurfaceMaterial> materials_;
+  std::vector<Light> lights_;
+  std::vector<std::uint32_t> light_of_emitter_; ///< empty where no surface shines
+  std::vector<std::uint32_t> infinite_lights_;
+  AliasTable all_lights_, delta_lights_;
+  bool has_transparency_ = false;
+
+  void add_materials(const Document& document);
+  void add_emitters();
+  void add_lights(const std::vector<LightDesc>& lights);
+};
+
+/// The BSDF at a surface point: its material's, with the texture looked up.
+Bsdf evaluate_bsdf(const SurfaceMaterial& material, const Surface& surface);
+
+} // namespace candela
