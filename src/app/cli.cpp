@@ -1,0 +1,112 @@
+#include "app/cli.h"
+
+#include "app/compare_command.h"
+#include "app/info_command.h"
+#include "app/render_command.h"
+#include "app/settings_command.h"
+#include "app/view_command.h"
+#include "core/error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <new>
+
+namespace candela {
+
+namespace {
+
+/// The settings that have an option of their own are applied like `--set`, in the order given.
+void add_common_options(CLI::App& command, SceneOptions& o) {
+  command.add_option("scene", o.path, "Scene file (.json .obj .xml .ini)");
+  command.add_option("--set", o.settings, "Change a setting, KEY=VALUE; see `candela settings`")
+      ->take_all()
+      ->allow_extra_args(false);
+  command.add_flag("--allow-outside", o.allow_outside,
+                   "Let the scene read files outside its own folder tree");
+  command.add_option("--threads", o.threads, "Threads to render with; 0: every core")
+      ->check(CLI::Range(0, 1024));
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Candela, an interactive progressive path tracer", "candela"};
+  app.set_version_flag("--version", "candela " CANDELA_VERSION);
+  app.require_subcommand(0, 1);
+
+  SceneOptions view_options;
+  add_common_options(app, view_options); // `candela SCENE` is `candela view SCENE`
+  auto* view = app.add_subcommand("view", "Open the window (the default)");
+  add_common_options(*view, view_options);
+
+  RenderOptions render_options;
+  auto* render = app.add_subcommand("render", "Render a scene to files");
+  add_common_options(*render, render_options.scene);
+  render->get_option("scene")->required();
+  render
+      ->add_option("-o,--output", render_options.outputs,
+                   "Picture to write: PNG JPG PPM EXR HDR PFM; may repeat")
+      ->take_all()
+      ->allow_extra_args(false);
+  render->add_option("--spp", render_options.spp, "Samples a pixel to stop at; 0: never")
+      ->check(CLI::NonNegativeNumber);
+  render->add_option("--time", render_options.time, "Seconds of rendering to stop at; 0: never")
+      ->check(CLI::NonNegativeNumber);
+  render->add_option("--size", render_options.size, "Size of the image, WxH");
+  render->add_option("--seed", render_options.seed, "Seed of the random numbers")
+      ->check(CLI::NonNegativeNumber);
+  render->add_option("--crop", render_options.crop, "Render only this window of the image: X,Y,W,H");
+  render->add_option("--reference", render_options.reference,
+                     "Compare with this picture; the result goes to stdout");
+  render->add_option("--stats", render_options.stats, "Write what was measured to this file (JSON)");
+  render->add_flag("--quiet", render_options.quiet, "Say nothing but warnings and errors");
+
+  std::string compare_a, compare_b;
+  std::optional<std::string> diff;
+  auto* compare = app.add_subcommand("compare", "Measure how two pictures differ, as JSON");
+  compare->add_option("a", compare_a, "Picture")->required();
+  compare->add_option("b", compare_b, "Reference")->required();
+  compare->add_option("--diff", diff, "Write a picture of the differences");
+
+  SceneOptions info_options;
+  auto* info = app.add_subcommand("info", "Say what is in a scene, as JSON");
+  add_common_options(*info, info_options);
+  info->get_option("scene")->required();
+
+  bool json = false, markdown = false;
+  auto* settings = app.add_subcommand("settings", "List every setting");
+  settings->add_flag("--json", json, "As JSON");
+  settings->add_flag("--markdown", markdown, "As a Markdown table")->excludes("--json");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) { // --help, --version
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    std::string what = e.what();
+    throw usage_error("command line", what, "see `candela --help`");
+  }
+  if (render->parsed()) return run_render(render_options);
+  if (compare->parsed()) return run_compare(compare_a, compare_b, diff);
+  if (info->parsed()) return run_info(info_options);
+  if (settings->parsed()) return run_settings(json, markdown);
+  return run_view(view_options);
+}
+
+} // namespace
+
+int run_program(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const Error& e) {
+    fmt::print(stderr, "candela: {}\n", e.what());
+    return static_cast<int>(e.code());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr,
+               "candela: memory: there is not enough: close other programs or make the scene or the film "
+               "smaller\n");
+    return static_cast<int>(ExitCode::limit);
+  }
+}
+
+} // namespace candela

@@ -1,0 +1,76 @@
+#include "app/info_command.h"
+
+#include "render/render_scene.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <set>
+
+namespace candela {
+
+namespace {
+
+nlohmann::ordered_json vector_json(vec3 v) { return {v.x, v.y, v.z}; }
+
+const char* light_name(const Light& light) {
+  static constexpr const char* kNames[] = {"rectangle", "triangle",    "sphere",  "disc",
+                                           "point",     "directional", "constant"};
+  return kNames[light.index()];
+}
+
+} // namespace
+
+int run_info(const SceneOptions& options) {
+  LoadedScene loaded = load_scene(options);
+  const SceneDesc& desc = loaded.document.scene;
+  auto scene = RenderScene::build(loaded.document);
+  const Geometry& geometry = scene->geometry();
+  AccelStats accel = geometry.accel().stats();
+
+  std::set<const Mesh*> meshes;
+  std::size_t distinct = 0, placed = 0;
+  for (const Instance& instance : desc.instances)
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
+      placed += (*mesh)->triangles.size();
+      if (meshes.insert(mesh->get()).second) distinct += (*mesh)->triangles.size();
+    }
+
+  nlohmann::ordered_json out;
+  out["scene"] = options.path;
+  out["instances"] = desc.instances.size();
+  out["meshes"] = meshes.size();
+  out["triangles"] = {{"distinct", distinct}, {"placed", placed}};
+  out["spheres"] = geometry.spheres().size();
+  out["rectangles"] = geometry.rectangles().size();
+  out["discs"] = geometry.discs().size();
+  out["materials"] = desc.materials.size();
+  out["textures"] = desc.textures.size();
+  Bounds3 bounds = geometry.bounds();
+  if (bounds.empty())
+    out["bounds"] = nullptr;
+  else
+    out["bounds"] = {{"min", vector_json(bounds.lo)}, {"max", vector_json(bounds.hi)}};
+  nlohmann::ordered_json lights = nlohmann::ordered_json::object();
+  for (const Light& light : scene->lights()) {
+    auto& count = lights[light_name(light)];
+    count = count.is_null() ? 1 : count.get<int>() + 1;
+  }
+  out["lights"] = lights;
+  out["camera"] = {{"position", vector_json(desc.camera.position)},
+                   {"target", vector_json(desc.camera.target)},
+                   {"vertical_fov", degrees(desc.camera.vertical_fov)}};
+  out["film"] = {{"width", loaded.document.settings.film.width},
+                 {"height", loaded.document.settings.film.height}};
+  out["bvh"] = {{"nodes", accel.nodes}, {"leaves", accel.leaves},
+                {"depth", accel.depth}, {"sah_cost", accel.sah_cost},
+                {"bytes", accel.bytes}, {"skipped_primitives", accel.skipped}};
+  out["memory_bytes"] = scene->memory_bytes();
+  out["warnings"] = nlohmann::ordered_json::array();
+  for (const Warning& w : loaded.warnings) out["warnings"].push_back({{"text", w.text}, {"count", w.count}});
+  fmt::print("{}\n", out.dump(2));
+  return 0;
+}
+
+} // namespace candela

@@ -1,0 +1,20 @@
+#include "app/picture_output.h"
+
+#include "io/image_file.h"
+#include "render/tone_map.h"
+
+namespace candela {
+
+void write_picture(const Image& image, const std::string& path, const DisplaySettings& display,
+                   float display_scale, int spp) {
+  if (is_linear_format(image_format_of(path))) {
+    write_linear_image(image, path,
+                       {{"candela.version", CANDELA_VERSION}, {"candela.spp", std::to_string(spp)}});
+    return;
+  }
+  std::vector<std::uint8_t> rgb(3 * image.pixels.size());
+  tone_map_rgb(image.pixels, display, display_scale, rgb);
+  write_srgb8_image(image.width, image.height, rgb, path);
+}
+
+} // namespace candela

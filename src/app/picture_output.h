@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scene/document.h"
+
+namespace candela {
+
+/// Writes a rendered picture in the format of the path's ending: tone-mapped (PNG, JPG, PPM), exactly as the
+/// window shows it, or linear (EXR, HDR, PFM). `display_scale` is Frame::display_scale.
+void write_picture(const Image& image, const std::string& path, const DisplaySettings& display,
+                   float display_scale, int spp);
+
+} // namespace candela

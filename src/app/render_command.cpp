@@ -1,0 +1,197 @@
+#include "app/render_command.h"
+
+#include "app/picture_output.h"
+#include "app/progress_bar.h"
+#include "core/error.h"
+#include "io/atomic_file.h"
+#include "io/image_file.h"
+#include "render/compare.h"
+#include "session/offline_render.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <omp.h>
+#include <sys/resource.h>
+
+namespace candela {
+
+namespace {
+
+std::atomic<bool> stop_requested{false};
+volatile std::sig_atomic_t stop_signal = 0;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+extern "C" void on_signal(int signal) {
+  stop_signal = signal;
+  stop_requested = true;
+}
+
+/// SIGINT and SIGTERM end the render early for as long as this lives.
+class SignalGuard {
+public:
+  SignalGuard() : interrupt_(std::signal(SIGINT, on_signal)), terminate_(std::signal(SIGTERM, on_signal)) {}
+  ~SignalGuard() {
+    std::signal(SIGINT, interrupt_);
+    std::signal(SIGTERM, terminate_);
+  }
+  SignalGuard(const SignalGuard&) = delete;
+  SignalGuard& operator=(const SignalGuard&) = delete;
+
+private:
+  void (*interrupt_)(int);
+  void (*terminate_)(int);
+};
+
+/// Exactly `n` integers with `separator` between them.
+std::vector<int> integers(const std::string& text, char separator, std::size_t n, std::string_view option,
+                          std::string_view form) {
+  std::vector<int> out;
+  const char* p = text.data();
+  const char* end = p + text.size();
+  while (true) {
+    int value = 0;
+    auto [next, status] = std::from_chars(p, end, value);
+    if (status != std::errc()) break;
+    out.push_back(value);
+    p = next;
+    if (p == end || *p != separator) break;
+    ++p;
+  }
+  if (p != end || out.size() != n)
+    throw usage_error(fmt::format("{} {}", option, text), "it is not of the form",
+                      fmt::format("write {}", form));
+  return out;
+}
+
+void apply_options(const RenderOptions& o, Document& document, PassOptions& pass) {
+  if (o.spp) document.settings.stop.spp = *o.spp;
+  if (o.time) {
+    document.settings.stop.time = *o.time;
+    if (!o.spp) document.settings.stop.spp = 0; // the time alone decides
+  }
+  if (o.seed) document.settings.sampler.seed = *o.seed;
+  if (o.size) {
+    auto size = integers(*o.size, 'x', 2, "--size", "WxH, such as 1280x720");
+    document.settings.film.width = size[0];
+    document.settings.film.height = size[1];
+  }
+  // What has an option is a setting too, and --set wins over both file and job.
+  for (const std::string& s : o.scene.settings) apply_setting(document, s);
+  if (auto problem = document_problem(document); !problem.empty())
+    throw usage_error("settings", problem, "see `candela settings`");
+  pass.threads = o.scene.threads;
+  if (o.crop) {
+    auto c = integers(*o.crop, ',', 4, "--crop", "X,Y,W,H in pixels");
+    const FilmSettings& film = document.settings.film;
+    if (c[0] < 0 || c[1] < 0 || c[2] < 1 || c[3] < 1 || c[2] > film.width - c[0] || c[3] > film.height - c[1])
+      throw usage_error(fmt::format("--crop {}", *o.crop), "the window is not inside the film",
+                        fmt::format("stay within {}x{}", film.width, film.height));
+    pass.crop = {c[0], c[1], c[2], c[3]};
+  }
+}
+
+Image cut(Image image, const CropWindow& crop) {
+  if (crop.width <= 0) return image;
+  Image out{crop.width, crop.height, {}};
+  for (int y = 0; y < crop.height; ++y)
+    for (int x = 0; x < crop.width; ++x) out.pixels.push_back(image.at(crop.x + x, crop.y + y));
+  return out;
+}
+
+nlohmann::ordered_json stats_json(const Document& document, const OfflineResult& result, const Image& image,
+                                  double load_seconds, int threads) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  nlohmann::ordered_json j;
+  j["version"] = CANDELA_VERSION;
+  j["load_s"] = load_seconds;
+  j["build_s"] = result.build_seconds;
+  j["render_s"] = result.render_seconds;
+  j["width"] = image.width;
+  j["height"] = image.height;
+  j["spp"] = result.spp;
+  j["samples"] = result.rays.samples;
+  j["rays"] = {{"closest", result.rays.closest}, {"shadow", result.rays.shadow}};
+  double seconds = std::max(result.render_seconds, 1e-9);
+  j["samples_per_s"] = static_cast<double>(result.rays.samples) / seconds;
+  j["rays_per_s"] = static_cast<double>(result.rays.closest + result.rays.shadow) / seconds;
+  j["threads"] = threads;
+  j["seed"] = document.settings.sampler.seed;
+  j["nonfinite"] = result.nonfinite.count;
+  j["nonfinite_samples"] = nlohmann::ordered_json::array();
+  for (const NonFiniteSample& s : result.nonfinite.records)
+    j["nonfinite_samples"].push_back(
+        {{"pixel", {s.pixel.x, s.pixel.y}}, {"sample", s.sample}, {"depth", s.depth}});
+  j["scene_bytes"] = result.scene_bytes;
+  j["peak_rss_bytes"] = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  for (const auto& row : settings_table()) j["settings"][std::string(row.key)] = field_text(row, document);
+  return j;
+}
+
+std::string rate_text(const OfflineProgress& p) {
+  return fmt::format("{} spp, {:.2f} Msamples/s", p.spp,
+                     static_cast<double>(p.rays.samples) / std::max(p.render_seconds, 1e-9) / 1e6);
+}
+
+} // namespace
+
+int run_render(const RenderOptions& options) {
+  auto load_start = std::chrono::steady_clock::now();
+  SceneOptions scene_options = options.scene;
+  scene_options.settings.clear(); // applied after the other options
+  LoadedScene loaded = load_scene(scene_options);
+  double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - load_start).count();
+
+  OfflineOptions offline;
+  apply_options(options, loaded.document, offline.pass);
+  std::vector<std::string> outputs = options.outputs.empty() ? loaded.output_files : options.outputs;
+  if (outputs.empty()) throw usage_error("render", "there is nowhere to write to", "add -o FILE");
+  for (const std::string& path : outputs) image_format_of(path); // refuse before the work, not after
+  std::optional<Image> reference;
+  if (options.reference) reference = read_image(*options.reference);
+
+  ProgressBar bar(options.quiet);
+  offline.stop = &stop_requested;
+  offline.progress = [&](const OfflineProgress& p) { bar.update(p.fraction, rate_text(p)); };
+  OfflineResult result;
+  {
+    SignalGuard guard;
+    result = render_document(loaded.document, offline);
+  }
+  Image image = cut(result.film.image(), offline.pass.crop);
+  if (reference && (reference->width != image.width || reference->height != image.height))
+    throw input_error({*options.reference, 0, 0}, "reference",
+                      fmt::format("it has {}x{} pixels, the render {}x{}", reference->width,
+                                  reference->height, image.width, image.height),
+                      "render at the reference's --size");
+  for (const std::string& path : outputs)
+    write_picture(image, path, loaded.document.settings.display, result.display_scale, result.spp);
+
+  int threads = options.scene.threads > 0 ? options.scene.threads : omp_get_num_procs();
+  if (options.stats)
+    write_file_atomically(*options.stats,
+                          stats_json(loaded.document, result, image, load_seconds, threads).dump(2) + "\n");
+  bar.finish(
+      fmt::format("{} spp in {:.2f} s, {:.2f} Msamples/s: {}", result.spp, result.render_seconds,
+                  static_cast<double>(result.rays.samples) / std::max(result.render_seconds, 1e-9) / 1e6,
+                  fmt::join(outputs, ", ")));
+  if (result.nonfinite.count > 0) {
+    const NonFiniteSample& first = result.nonfinite.records.front();
+    fmt::print(stderr,
+               "candela: warning: {} samples were not finite and are left out; the first is pixel {},{} "
+               "sample {} at depth {}\n",
+               result.nonfinite.count, first.pixel.x, first.pixel.y, first.sample, first.depth);
+  }
+  if (reference) fmt::print("{}\n", comparison_json(compare_images(image, *reference)));
+  if (!result.interrupted) return 0;
+  fmt::print(stderr, "candela: interrupted; what was rendered is saved\n");
+  return stop_signal == SIGTERM ? static_cast<int>(ExitCode::terminated)
+                                : static_cast<int>(ExitCode::interrupted);
+}
+
+} // namespace candela

@@ -1,0 +1,24 @@
+#include "app/view_command.h"
+
+#include "app/window_glfw.h"
+#include "core/error.h"
+
+namespace candela {
+
+int run_view(const SceneOptions& options) {
+  // Before the scene is read: who has no display need not wait for it.
+  if (!display_available())
+    throw Error(ExitCode::display,
+                "display: there is none to open a window on: set DISPLAY (or WAYLAND_DISPLAY), or "
+                "use `candela render SCENE -o FILE`");
+  LoadedScene loaded = load_scene(options);
+  ViewerOptions viewer;
+  viewer.document = std::move(loaded.document);
+  viewer.scene_path = options.path;
+  viewer.threads = options.threads;
+  for (const Warning& w : loaded.warnings) viewer.warnings.push_back(w.text);
+  run_window(std::move(viewer));
+  return 0;
+}
+
+} // namespace candela

@@ -1,0 +1,68 @@
+#include "session/offline_render.h"
+
+#include "core/error.h"
+
+#include <chrono>
+
+namespace candela {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+} // namespace
+
+OfflineResult render_document(const Document& document, const OfflineOptions& options) {
+  const StopSettings& until = document.settings.stop;
+  if (until.spp <= 0 && until.time <= 0)
+    throw usage_error("stop", "there is nothing to stop at", "give stop.spp (--spp) or stop.time (--time)");
+  auto start = Clock::now();
+  auto scene = RenderScene::build(document);
+  OfflineResult result;
+  result.build_seconds = seconds_since(start);
+  result.scene_bytes = scene->memory_bytes();
+  result.display_scale = display_scale(*scene, document.settings);
+  result.film = Film(document.settings.film.width, document.settings.film.height);
+
+  static const std::atomic<bool> kNeverStop{false};
+  const std::atomic<bool>& stop = options.stop ? *options.stop : kNeverStop;
+  start = Clock::now();
+  int target = until.spp > 0 ? until.spp : std::numeric_limits<int>::max();
+  int portion = 1; // grows while a portion is too short to be worth its synchronisation
+  while (result.spp < target) {
+    portion = std::min(portion, target - result.spp);
+    SampleRange range{static_cast<std::uint32_t>(result.spp),
+                      static_cast<std::uint32_t>(result.spp + portion)};
+    auto portion_start = Clock::now();
+    PassResult pass = render_pass(*scene, document, range, result.film, stop, options.pass);
+    result.rays += pass.rays;
+    result.nonfinite.count += pass.nonfinite.count;
+    for (const NonFiniteSample& s : pass.nonfinite.records)
+      if (result.nonfinite.records.size() < NonFiniteLog::kMaxRecords) result.nonfinite.records.push_back(s);
+    result.render_seconds = seconds_since(start);
+    if (!pass.completed) {
+      result.interrupted = true;
+      break;
+    }
+    result.spp += portion;
+    if (options.progress) {
+      double by_spp = until.spp > 0 ? static_cast<double>(result.spp) / target : 0;
+      double by_time = until.time > 0 ? result.render_seconds / static_cast<double>(until.time) : 0;
+      options.progress(
+          {result.spp, result.render_seconds, std::min(std::max(by_spp, by_time), 1.0), result.rays});
+    }
+    if (until.time > 0 && result.render_seconds >= static_cast<double>(until.time)) break;
+    double taken = seconds_since(portion_start);
+    if (taken < 0.1 && portion < 64)
+      portion *= 2;
+    else if (taken > 0.5 && portion > 1)
+      portion /= 2;
+  }
+  return result;
+}
+
+} // namespace candela
