@@ -48,6 +48,10 @@ Bytes encode_jpg(int width, int height, ByteView rgb);
 bool is_png(ByteView bytes);
 void check_png(ByteView bytes, const Location& where);
 
+// jpg_check.cpp: structure of a JPEG; what stb_image takes without looking.
+bool is_jpg(ByteView bytes);
+void check_jpg(ByteView bytes, const Location& where);
+
 // pnm.cpp: PPM and PGM (P2, P3, P5, P6), up to 16 bits, read as sRGB; written as P6.
 bool is_pnm(ByteView bytes);
 Image decode_pnm(ByteView bytes, const Location& where);

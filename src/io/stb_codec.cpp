@@ -30,20 +30,7 @@ namespace {
 template <class T>
 using StbPixels = std::unique_ptr<T, decltype([](T* p) { std::free(p); })>;
 
-bool is_jpg(ByteView bytes) {
-  return bytes.size() >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
-}
 bool is_bmp(ByteView bytes) { return bytes.size() >= 2 && bytes[0] == 'B' && bytes[1] == 'M'; }
-
-/// stb_image fills what a short file lacks with zeros; a picture that ends early is refused instead.
-void check_jpg(ByteView bytes, const Location& where, std::int64_t pixels) {
-  bool ends = false;
-  for (std::size_t i = bytes.size(); i-- > 1 && !ends;) ends = bytes[i - 1] == 0xff && bytes[i] == 0xd9;
-  if (!ends) throw damaged_image(where, "the JPEG ends before its end marker");
-  // The first scan spends at least one bit on every 8x8 block.
-  if (static_cast<std::int64_t>(bytes.size()) < pixels / 512)
-    throw damaged_image(where, "the JPEG is too short for the size it claims");
-}
 
 /// Uncompressed rows that the file does not hold would be read as whatever the memory held before.
 void check_tga(ByteView bytes, const Location& where, std::int64_t pixels) {
@@ -72,12 +59,15 @@ Error undecodable(const Location& where) {
 /// Everything that is checked before pixels are allocated; the size.
 std::pair<int, int> check_stb(ByteView bytes, const Location& where, bool tga) {
   if (is_png(bytes)) check_png(bytes, where);
+  if (is_jpg(bytes)) check_jpg(bytes, where);
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) == 0)
     throw undecodable(where);
   check_image_size(where, width, height);
   std::int64_t pixels = std::int64_t{width} * height;
-  if (is_jpg(bytes)) check_jpg(bytes, where, pixels);
+  // The first scan spends at least one bit on every 8x8 block.
+  if (is_jpg(bytes) && static_cast<std::int64_t>(bytes.size()) < pixels / 512)
+    throw damaged_image(where, "the JPEG is too short for the size it claims");
   if (is_bmp(bytes)) check_bmp(bytes, where, pixels);
   if (tga && !is_stb_format(bytes)) check_tga(bytes, where, pixels);
   return {width, height};
