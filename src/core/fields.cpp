@@ -26,7 +26,6 @@ int load_choice(const void* address) {
 
 float angle_value(double deg) { return static_cast<float>(deg * (std::numbers::pi / 180.0)); }
 
-
 std::vector<std::string_view> words(std::string_view text) {
   std::vector<std::string_view> out;
   std::size_t i = 0;

@@ -1,0 +1,425 @@
+#include "io/candela_json.h"
+#include "io/json_fields.h"
+#include "io/json_mesh.h"
+#include "io/json_transform.h"
+#include "io/text_file.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+namespace candela {
+
+namespace {
+
+constexpr std::size_t kMaxJsonBytes = std::size_t{512} << 20;
+
+class CandelaReader {
+public:
+  CandelaReader(const FoundFile& file, const PathPolicy& policy, WarningList& warnings)
+      : folder_(folder_of(file.shown)),
+        tree_(file.shown, read_text_file(file.canonical, "scene", kMaxJsonBytes)),
+        builder_(document_.scene, policy, TfMeaning::filter, warnings) {}
+
+  Document run() {
+    constexpr std::string_view kKeys[] = {"candela",  "description", "camera",    "materials", "lights",
+                                          "textures", "meshes",      "instances", "settings"};
+    JsonValue root = tree_.root();
+    expect(root, JsonType::object, "scene");
+    std::map<std::string, JsonValue> parts;
+    for (auto it = root.begin(); it != root.end(); ++it) {
+      JsonValue key = *it, value = *++it;
+      if (std::ranges::find(kKeys, key.string()) == std::end(kKeys)) throw unknown_key(key, "scene", kKeys);
+      parts.emplace(key.string(), value);
+    }
+    if (!parts.contains("candela"))
+      throw input_error(root.where(), "scene", "the key \"candela\" is missing",
+                        "say \"candela\": 1, the version of the format, in the outermost object");
+    read_integer(parts.at("candela"), "candela", 1, 1);
+    if (auto it = parts.find("description"); it != parts.end())
+      expect(it->second, JsonType::string, "description");
+    // What is referred to comes first, whatever the order in the file.
+    auto read = [&](const char* key, void (CandelaReader::*reader)(JsonValue)) {
+      if (auto it = parts.find(key); it != parts.end()) (this->*reader)(it->second);
+    };
+    read("settings", &CandelaReader::settings);
+    read("camera", &CandelaReader::camera);
+    read("textures", &CandelaReader::textures);
+    read("materials", &CandelaReader::materials);
+    read("lights", &CandelaReader::lights);
+    read("meshes", &CandelaReader::meshes);
+    read("instances", &CandelaReader::instances);
+    return std::move(document_);
+  }
+
+private:
+  /// A mesh that instances may use, and its file if it has one (for the materials of its MTL).
+  struct NamedMesh {
+    std::shared_ptr<const Mesh> mesh;
+    MeshFile* file = nullptr;
+  };
+
+  void settings(JsonValue object) { settings_below(object, "settings", ""); }
+
+  /// Reads the settings whose keys begin with `prefix`.
+  void settings_below(JsonValue object, const std::string& element, const std::string& prefix) {
+    expect(object, JsonType::object, element);
+    for (auto it = object.begin(); it != object.end(); ++it) {
+      JsonValue key = *it, value = *++it;
+      std::string full = prefix + key.string(), name = fmt::format("{}.{}", element, key.string());
+      std::vector<std::string_view> known; // the keys that fit here
+      bool is_group = false;
+      for (const auto& row : settings_table()) {
+        if (row.key.starts_with("camera.") || !row.key.starts_with(prefix)) continue;
+        std::string_view next = row.key.substr(prefix.size());
+        next = next.substr(0, next.find('.'));
+        if (known.empty() || known.back() != next) known.push_back(next);
+        is_group |= row.key.starts_with(full + ".");
+      }
+      const auto* row = find_setting(full);
+      if (is_group)
+        settings_below(value, name, full + ".");
+      else if (row != nullptr && std::ranges::find(known, key.string()) != known.end())
+        read_field(*row, row->address(document_), value, name);
+      else if (full == "camera")
+        throw input_error(key.where(), element, "the camera is no setting",
+                          "write \"camera\" beside \"settings\"");
+      else
+        throw unknown_key(key, element, known);
+    }
+  }
+
+  void camera(JsonValue object) {
+    constexpr std::string_view kPrefix = "camera.";
+    expect(object, JsonType::object, "camera");
+    std::vector<std::string_view> known;
+    for (const auto& row : settings_table())
+      if (row.key.starts_with(kPrefix)) known.push_back(row.key.substr(kPrefix.size()));
+    for (auto it = object.begin(); it != object.end(); ++it) {
+      JsonValue key = *it, value = *++it;
+      std::string full = std::string(kPrefix) + key.string();
+      const auto* row = find_setting(full);
+      if (row == nullptr) throw unknown_key(key, "camera", known);
+      read_field(*row, row->address(document_), value, full);
+    }
+    const Camera& c = document_.scene.camera;
+    if (c.position == c.target)
+      throw input_error(object.where(), "camera", "position and target are the same", "move one of them");
+    if (glm::cross(glm::dvec3(c.target) - glm::dvec3(c.position), glm::dvec3(c.up)) == glm::dvec3(0))
+      throw input_error(object.where(), "camera", "up is parallel to the view", "give another up");
+  }
+
+  /// Calls visit(object, element) for each element of an array of objects.
+  template <class Visit>
+  void each_object(JsonValue array, std::string_view element, Visit visit) {
+    expect(array, JsonType::array, element);
+    int index = 0;
+    for (JsonValue object : array) {
+      std::string name = fmt::format("{}[{}]", element, index++);
+      expect(object, JsonType::object, name);
+      visit(object, name);
+    }
+  }
+
+  /// Reads a key that is a row of the table, if it is one.
+  template <class Owner>
+  static bool read_row(std::span<const Field<Owner>> rows, Owner& owner, JsonValue key, JsonValue value,
+                       std::string_view element) {
+    auto row = std::ranges::find(rows, std::string_view(key.string()), &FieldInfo::key);
+    if (row == rows.end()) return false;
+    read_field(*row, row->address(owner), value, fmt::format("{}.{}", element, row->key));
+    return true;
+  }
+
+  template <class Owner>
+  static std::vector<std::string_view> keys_of(std::span<const Field<Owner>> rows,
+                                               std::initializer_list<std::string_view> more) {
+    std::vector<std::string_view> keys(more);
+    for (const auto& row : rows) keys.push_back(row.key);
+    return keys;
+  }
+
+  void textures(JsonValue array) {
+    each_object(array, "textures", [&](JsonValue object, const std::string& element) {
+      constexpr std::string_view kKeys[] = {"file", "name", "width", "height", "srgb"};
+      auto texture = std::make_shared<Texture>();
+      std::optional<JsonValue> file, srgb;
+      constexpr int kMaxSide = 65536;
+      for (auto it = object.begin(); it != object.end(); ++it) {
+        JsonValue key = *it, value = *++it;
+        std::string name = fmt::format("{}.{}", element, key.string());
+        if (key.string() == "file")
+          file = value;
+        else if (key.string() == "name")
+          texture->name = read_string(value, name);
+        else if (key.string() == "width")
+          texture->width = read_integer(value, name, 1, kMaxSide);
+        else if (key.string() == "height")
+          texture->height = read_integer(value, name, 1, kMaxSide);
+        else if (key.string() == "srgb")
+          srgb = value;
+        else
+          throw unknown_key(key, element, kKeys);
+      }
+      if (file) {
+        std::string name = element + ".file";
+        builder_.append_texture(
+            builder_.policy().require(read_string(*file, name), folder_, file->where(), name));
+        return;
+      }
+      std::size_t bytes =
+          3 * static_cast<std::size_t>(texture->width) * static_cast<std::size_t>(texture->height);
+      if (!srgb || srgb->type() != JsonType::array || bytes == 0 || srgb->size() != bytes)
+        throw input_error((srgb ? *srgb : object).where(), element, "it is no picture",
+                          "give a \"file\", or width, height and 3 width height bytes as \"srgb\"");
+      for (JsonValue byte : *srgb)
+        texture->srgb.push_back(static_cast<std::uint8_t>(read_integer(byte, element + ".srgb", 0, 255)));
+      document_.scene.textures.push_back(std::move(texture));
+    });
+  }
+
+  void materials(JsonValue array) {
+    auto known = keys_of(material_fields(), {"name", "diffuse_texture"});
+    each_object(array, "materials", [&](JsonValue object, const std::string& element) {
+      Material material;
+      for (auto it = object.begin(); it != object.end(); ++it) {
+        JsonValue key = *it, value = *++it;
+        std::string name = fmt::format("{}.{}", element, key.string());
+        if (key.string() == "name")
+          material.name = read_string(value, name);
+        else if (key.string() == "diffuse_texture")
+          material.diffuse_texture = texture_of(value, name);
+        else if (!read_row(material_fields(), material, key, value, element))
+          throw unknown_key(key, element, known);
+      }
+      int index = builder_.add_material(material);
+      auto [same_name, is_new] = material_by_name_.try_emplace(material.name, index);
+      if (!is_new) same_name->second = kAmbiguous;
+    });
+  }
+
+  int texture_of(JsonValue value, const std::string& element) {
+    if (value.type() == JsonType::number)
+      return read_integer(value, element, 0, static_cast<int>(document_.scene.textures.size()) - 1);
+    return builder_.texture(
+        builder_.policy().require(read_string(value, element), folder_, value.where(), element));
+  }
+
+  void lights(JsonValue array) {
+    auto known = keys_of(light_fields(), {"name"});
+    each_object(array, "lights", [&](JsonValue object, const std::string& element) {
+      LightDesc light;
+      for (auto it = object.begin(); it != object.end(); ++it) {
+        JsonValue key = *it, value = *++it;
+        if (key.string() == "name")
+          light.name = read_string(value, element + ".name");
+        else if (!read_row(light_fields(), light, key, value, element))
+          throw unknown_key(key, element, known);
+      }
+      if (light.type == LightType::directional && is_black(light.direction))
+        throw input_error(object.where(), element, "its direction has no length", "give a direction");
+      document_.scene.lights.push_back(std::move(light));
+    });
+  }
+
+  void meshes(JsonValue object) {
+    expect(object, JsonType::object, "meshes");
+    for (auto it = object.begin(); it != object.end(); ++it) {
+      JsonValue key = *it, value = *++it;
+      std::string element = fmt::format("meshes.{}", key.string());
+      expect(value, JsonType::object, element);
+      std::string name = key.string();
+      std::optional<JsonValue> file;
+      for (auto part = value.begin(); part != value.end(); ++part) {
+        JsonValue part_key = *part, part_value = *++part;
+        if (part_key.string() == "name") name = read_string(part_value, element + ".name");
+        if (part_key.string() == "file") file = part_value;
+      }
+      if (!file) {
+        meshes_[key.string()] = {std::make_shared<const Mesh>(read_json_mesh(value, name, element)), nullptr};
+        continue;
+      }
+      constexpr std::string_view kKeys[] = {"file", "name"};
+      for (auto part = value.begin(); part != value.end(); ++part) {
+        if (std::ranges::find(kKeys, (*part).string()) == std::end(kKeys))
+          throw unknown_key(*part, element, kKeys);
+        ++part;
+      }
+      meshes_[key.string()] = mesh_of_file(*file, name, element + ".file");
+    }
+  }
+
+  NamedMesh mesh_of_file(JsonValue value, const std::string& name, const std::string& element) {
+    FoundFile found = builder_.policy().require(read_string(value, element), folder_, value.where(), element);
+    MeshFile& file = builder_.mesh_file(found, name, value.where(), element);
+    return {file.mesh, &file};
+  }
+
+  void instances(JsonValue array) {
+    each_object(array, "instances",
+                [&](JsonValue object, const std::string& element) { instance(object, element); });
+  }
+
+  void instance(JsonValue object, const std::string& element) {
+    constexpr std::string_view kKeys[] = {"name",     "shape",     "mesh",      "file",
+                                          "material", "materials", "transform", "radius"};
+    std::map<std::string_view, JsonValue> parts;
+    for (auto it = object.begin(); it != object.end(); ++it) {
+      JsonValue key = *it, value = *++it;
+      auto known = std::ranges::find(kKeys, key.string());
+      if (known == std::end(kKeys)) throw unknown_key(key, element, kKeys);
+      parts.emplace(*known, value);
+    }
+    auto part = [&](std::string_view key) -> const JsonValue* {
+      auto found = parts.find(key);
+      return found == parts.end() ? nullptr : &found->second;
+    };
+    Instance out;
+    if (const auto* name = part("name")) out.name = read_string(*name, element + ".name");
+    if (const auto* transform = part("transform"))
+      out.world_from_object = read_transform(*transform, element + ".transform");
+
+    bool names_mesh = part("mesh") || part("file");
+    const auto* shape = part("shape");
+    if (!shape && !names_mesh)
+      throw input_error(object.where(), element, "it has no shape",
+                        "give a \"shape\": mesh, sphere, rectangle or disc");
+    std::string kind = shape ? read_string(*shape, element + ".shape") : "mesh";
+    if (kind != "mesh" && names_mesh)
+      throw input_error((part("mesh") ? part("mesh") : part("file"))->where(), element,
+                        fmt::format("a {} has no mesh", kind), "leave it out, or say \"shape\": \"mesh\"");
+    if (kind != "sphere" && part("radius"))
+      throw input_error(part("radius")->where(), element, fmt::format("a {} has no radius", kind),
+                        "scale it by its transform");
+    MeshFile* file = nullptr;
+    if (kind == "mesh") {
+      NamedMesh mesh = mesh_part(object, part("mesh"), part("file"), element);
+      file = mesh.file;
+      out.shape = std::move(mesh.mesh);
+    } else if (kind == "sphere") {
+      SphereShape sphere;
+      if (const auto* radius = part("radius")) {
+        sphere.radius = read_real(*radius, element + ".radius");
+        if (!(sphere.radius > 0))
+          throw input_error(radius->where(), element + ".radius",
+                            fmt::format("{} does not fit", sphere.radius), "give a positive number");
+      }
+      out.shape = sphere;
+    } else if (kind == "rectangle") {
+      out.shape = RectangleShape{};
+    } else if (kind == "disc") {
+      out.shape = DiscShape{};
+    } else {
+      throw input_error(shape->where(), element + ".shape",
+                        fmt::format("there is no shape '{}'", kind.substr(0, 60)),
+                        "give mesh, sphere, rectangle or disc");
+    }
+    instance_materials(out, part("material"), part("materials"), file, object.where(), element);
+    document_.scene.instances.push_back(std::move(out));
+  }
+
+  NamedMesh mesh_part(JsonValue object, const JsonValue* mesh, const JsonValue* file,
+                      const std::string& element) {
+    if (mesh && file)
+      throw input_error(file->where(), element, "it has both a mesh and a file", "keep one of them");
+    if (file) return mesh_of_file(*file, "", element + ".file");
+    if (!mesh) throw input_error(object.where(), element, "it names no mesh", "give \"mesh\" or \"file\"");
+    std::string name = read_string(*mesh, element + ".mesh");
+    auto known = meshes_.find(name);
+    if (known != meshes_.end()) return known->second;
+    std::vector<std::string_view> names;
+    for (const auto& [key, value] : meshes_) names.push_back(key);
+    throw missing(*mesh, element + ".mesh", "mesh", name, names);
+  }
+
+  void instance_materials(Instance& out, const JsonValue* all, const JsonValue* by_slot, MeshFile* file,
+                          const Location& where, const std::string& element) {
+    const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&out.shape);
+    const std::vector<std::string> one{""};
+    const std::vector<std::string>& slots = mesh ? (*mesh)->slot_names : one;
+    out.materials.assign(slots.size(), all ? material_of(*all, element + ".material") : -1);
+    if (by_slot) {
+      std::string name = element + ".materials";
+      if (by_slot->type() == JsonType::array) {
+        if (by_slot->size() != slots.size())
+          throw input_error(by_slot->where(), name,
+                            fmt::format("{} materials for {} slots", by_slot->size(), slots.size()),
+                            "give one for each slot");
+        auto slot = out.materials.begin();
+        for (JsonValue value : *by_slot) *slot++ = material_of(value, name);
+      } else {
+        expect(*by_slot, JsonType::object, name);
+        for (auto it = by_slot->begin(); it != by_slot->end(); ++it) {
+          JsonValue key = *it, value = *++it;
+          auto slot = std::ranges::find(slots, key.string());
+          std::vector<std::string_view> names(slots.begin(), slots.end());
+          if (slot == slots.end()) throw unknown_key(key, name, names);
+          out.materials[static_cast<std::size_t>(slot - slots.begin())] =
+              material_of(value, fmt::format("{}.{}", name, key.string()));
+        }
+      }
+    }
+    for (std::size_t slot = 0; slot < out.materials.size(); ++slot) {
+      int& material = out.materials[slot];
+      if (material < 0 && file) {
+        material = builder_.imported_material(*file, slot);
+        if (material < 0)
+          builder_.warnings().add(where, fmt::format("{}: the slot '{}' has no material: a grey is taken",
+                                                     element, slots[slot].substr(0, 100)));
+      }
+      if (material < 0) material = builder_.default_material();
+    }
+  }
+
+  int material_of(JsonValue value, const std::string& element) {
+    // By index only those of the file: imported ones come in an order that is nobody's promise.
+    if (value.type() == JsonType::number)
+      return read_integer(value, element, 0, static_cast<int>(material_count_in_file()) - 1);
+    std::string name = read_string(value, element);
+    auto known = material_by_name_.find(name);
+    if (known != material_by_name_.end() && known->second != kAmbiguous) return known->second;
+    if (known != material_by_name_.end())
+      throw input_error(value.where(), element,
+                        fmt::format("several materials are called '{}'", name.substr(0, 60)),
+                        "give the index of the one that you mean");
+    std::vector<std::string_view> names;
+    for (const auto& [key, index] : material_by_name_) names.push_back(key);
+    throw missing(value, element, "material", name, names);
+  }
+
+  std::size_t material_count_in_file() const {
+    auto materials = tree_.root();
+    for (auto it = materials.begin(); it != materials.end(); ++it) {
+      bool here = (*it).string() == "materials";
+      ++it;
+      if (here) return (*it).size();
+    }
+    return 0;
+  }
+
+  static Error missing(JsonValue value, std::string_view element, std::string_view what,
+                       const std::string& name, std::span<const std::string_view> names) {
+    std::string near = nearest_name(name, names);
+    return input_error(value.where(), element, fmt::format("there is no {} '{}'", what, name.substr(0, 60)),
+                       near.empty()
+                           ? fmt::format("define it in \"{}\"", what == "mesh" ? "meshes" : "materials")
+                           : fmt::format("did you mean '{}'?", near));
+  }
+
+  static constexpr int kAmbiguous = -2;
+
+  std::string folder_;
+  JsonTree tree_;
+  Document document_;
+  SceneBuilder builder_;
+  std::map<std::string, int> material_by_name_;
+  std::map<std::string, NamedMesh> meshes_;
+};
+
+} // namespace
+
+Document read_candela_json(const FoundFile& file, const PathPolicy& policy, WarningList& warnings) {
+  return CandelaReader(file, policy, warnings).run();
+}
+
+} // namespace candela

@@ -1,0 +1,247 @@
+#include "io/atomic_file.h"
+#include "io/candela_json.h"
+#include "io/json_fields.h"
+#include "io/json_mesh.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+
+namespace candela {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string joined(const std::vector<std::string>& parts, std::string_view separator) {
+  return fmt::format("{}", fmt::join(parts, separator));
+}
+
+class CandelaWriter {
+public:
+  CandelaWriter(const Document& document, const std::string& folder)
+      : document_(document), scene_(document.scene) {
+    std::error_code failed;
+    folder_ = fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder), failed);
+  }
+
+  std::string run() {
+    std::vector<std::string> parts = {"  \"candela\": 1"};
+    auto add = [&](std::string_view key, std::string_view open, std::vector<std::string> items,
+                   std::string_view close) {
+      if (items.empty()) return;
+      parts.push_back(fmt::format("  \"{}\": {}\n    {}\n  {}", key, open, joined(items, ",\n    "), close));
+    };
+    add("camera", "{", rows_below("camera."), "}");
+    natural_textures_ = textures_are_natural();
+    if (!natural_textures_) add("textures", "[", textures(), "]");
+    add("materials", "[", materials(), "]");
+    add("lights", "[", lights(), "]");
+    add("meshes", "{", meshes(), "}");
+    add("instances", "[", instances(), "]");
+    add("settings", "{", settings(), "}");
+    return fmt::format("{{\n{}\n}}\n", joined(parts, ",\n"));
+  }
+
+private:
+  /// The rows of an owner that differ from those of a default one, as JSON members.
+  template <class Owner>
+  static std::vector<std::string> changed_rows(std::span<const Field<Owner>> rows, const Owner& owner,
+                                               std::string_view prefix = "") {
+    std::vector<std::string> out;
+    const Owner standard;
+    for (const auto& row : rows) {
+      if (!row.key.starts_with(prefix)) continue;
+      const void* value = row.address(const_cast<Owner&>(owner));
+      if (field_equal(row, value, row.address(const_cast<Owner&>(standard)))) continue;
+      out.push_back(fmt::format("\"{}\": {}", row.key.substr(prefix.size()), field_json(row, value)));
+    }
+    return out;
+  }
+
+  std::vector<std::string> rows_below(std::string_view prefix) const {
+    return changed_rows(settings_table(), document_, prefix);
+  }
+
+  /// One object for each group of the table ("path." …), and the rows without a group.
+  std::vector<std::string> settings() const {
+    std::vector<std::string> out;
+    std::set<std::string_view> done;
+    for (const auto& row : settings_table()) {
+      auto dot = row.key.find('.');
+      std::string_view group = row.key.substr(0, dot);
+      if (group == "camera" || !done.insert(group).second) continue;
+      if (dot == std::string_view::npos) {
+        for (const std::string& member : rows_below(row.key)) // that row alone: "view"
+          out.push_back(fmt::format("\"{}{}", row.key, member.substr(1)));
+      } else if (auto members = rows_below(row.key.substr(0, dot + 1)); !members.empty()) {
+        out.push_back(fmt::format("\"{}\": {{{}}}", group, joined(members, ", ")));
+      }
+    }
+    return out;
+  }
+
+  /// The path of a file relative to the folder; nothing if it lies outside of the folder's tree or is gone.
+  std::optional<std::string> inside_path(const std::string& source) const {
+    if (source.empty()) return std::nullopt;
+    std::error_code failed;
+    fs::path file = fs::weakly_canonical(fs::absolute(source), failed);
+    if (failed || !fs::is_regular_file(file, failed)) return std::nullopt;
+    fs::path relative = file.lexically_relative(folder_);
+    if (relative.empty() || *relative.begin() == "..") return std::nullopt;
+    return relative.generic_string();
+  }
+
+  std::string texture_path(const Texture& texture) const {
+    std::error_code failed;
+    fs::path file = fs::weakly_canonical(fs::absolute(texture.source), failed);
+    return (failed ? fs::path(texture.source) : file.lexically_relative(folder_)).generic_string();
+  }
+
+  /// Whether the reader, which numbers textures as materials come to name them, would number them so.
+  bool textures_are_natural() const {
+    std::set<std::string> sources;
+    int next = 0;
+    for (const auto& texture : scene_.textures)
+      if (texture->source.empty() || !sources.insert(texture->source).second) return false;
+    for (const Material& material : scene_.materials) {
+      if (material.diffuse_texture > next) return false;
+      if (material.diffuse_texture == next) ++next;
+    }
+    return next == static_cast<int>(scene_.textures.size());
+  }
+
+  std::vector<std::string> textures() const {
+    std::vector<std::string> out;
+    for (const auto& texture : scene_.textures)
+      out.push_back(texture->source.empty()
+                        ? fmt::format("{{\"name\": {}, \"width\": {}, \"height\": {}, \"srgb\": [{}]}}",
+                                      json_quoted(texture->name), texture->width, texture->height,
+                                      fmt::join(texture->srgb, ","))
+                        : fmt::format("{{\"file\": {}}}", json_quoted(texture_path(*texture))));
+    return out;
+  }
+
+  std::vector<std::string> materials() const {
+    std::vector<std::string> out;
+    for (const Material& material : scene_.materials) {
+      std::vector<std::string> members;
+      if (!material.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(material.name)));
+      for (std::string& row : changed_rows(material_fields(), material)) members.push_back(std::move(row));
+      if (material.diffuse_texture >= 0)
+        members.push_back(
+            fmt::format("\"diffuse_texture\": {}", texture_reference(material.diffuse_texture)));
+      out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
+    }
+    return out;
+  }
+
+  std::string texture_reference(int index) const {
+    if (!natural_textures_) return fmt::format("{}", index);
+    return json_quoted(texture_path(*scene_.textures[static_cast<std::size_t>(index)]));
+  }
+
+  std::vector<std::string> lights() const {
+    std::vector<std::string> out;
+    for (const LightDesc& light : scene_.lights) {
+      std::vector<std::string> members;
+      if (!light.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(light.name)));
+      for (std::string& row : changed_rows(light_fields(), light)) members.push_back(std::move(row));
+      out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
+    }
+    return out;
+  }
+
+  std::vector<std::string> meshes() {
+    std::vector<std::string> out;
+    std::set<std::string> used;
+    for (const Instance& instance : scene_.instances) {
+      const auto* shape = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape);
+      if (!shape || mesh_keys_.contains(shape->get())) continue;
+      const Mesh& mesh = **shape;
+      std::string key = mesh.name.empty() ? "mesh" : mesh.name;
+      for (int i = 2; !used.insert(key).second; ++i)
+        key = fmt::format("{}-{}", mesh.name.empty() ? "mesh" : mesh.name, i);
+      mesh_keys_[&mesh] = key;
+      std::string name = key == mesh.name ? "" : fmt::format("\"name\": {}, ", json_quoted(mesh.name));
+      if (auto path = inside_path(mesh.source))
+        out.push_back(fmt::format("{}: {{{}\"file\": {}}}", json_quoted(key), name, json_quoted(*path)));
+      else
+        out.push_back(
+            fmt::format("{}: {{{}\n{}}}", json_quoted(key), name, json_mesh_members(mesh, "      ")));
+    }
+    return out;
+  }
+
+  std::vector<std::string> instances() {
+    count_names();
+    std::vector<std::string> out;
+    for (const Instance& instance : scene_.instances) {
+      std::vector<std::string> members;
+      if (!instance.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(instance.name)));
+      members.push_back(shape(instance.shape));
+      members.push_back(materials_of(instance));
+      if (instance.world_from_object != mat4(1)) members.push_back(transform(instance.world_from_object));
+      out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
+    }
+    return out;
+  }
+
+  std::string shape(const Shape& any) const {
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&any))
+      return fmt::format("\"shape\": \"mesh\", \"mesh\": {}", json_quoted(mesh_keys_.at(mesh->get())));
+    if (const auto* sphere = std::get_if<SphereShape>(&any))
+      return fmt::format("\"shape\": \"sphere\", \"radius\": {}", sphere->radius);
+    return std::holds_alternative<RectangleShape>(any) ? "\"shape\": \"rectangle\"" : "\"shape\": \"disc\"";
+  }
+
+  void count_names() {
+    for (const Material& material : scene_.materials) ++name_count_[material.name];
+  }
+
+  std::string material_reference(int index) const {
+    const std::string& name = scene_.materials[static_cast<std::size_t>(index)].name;
+    return name.empty() || name_count_.at(name) > 1 ? fmt::format("{}", index) : json_quoted(name);
+  }
+
+  std::string materials_of(const Instance& instance) const {
+    if (instance.materials.size() == 1)
+      return fmt::format("\"material\": {}", material_reference(instance.materials[0]));
+    const auto& slots = std::get<std::shared_ptr<const Mesh>>(instance.shape)->slot_names;
+    bool named = std::set<std::string>(slots.begin(), slots.end()).size() == slots.size();
+    std::vector<std::string> items;
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      items.push_back((named ? json_quoted(slots[i]) + ": " : "") +
+                      material_reference(instance.materials[i]));
+    return fmt::format("\"materials\": {}{}{}", named ? "{" : "[", joined(items, ", "), named ? "}" : "]");
+  }
+
+  static std::string transform(const mat4& m) {
+    std::vector<std::string> numbers;
+    for (int r = 0; r < 4; ++r)
+      for (int c = 0; c < 4; ++c) numbers.push_back(fmt::format("{}", m[c][r]));
+    return fmt::format("\"transform\": [{}]", joined(numbers, ", "));
+  }
+
+  const Document& document_;
+  const SceneDesc& scene_;
+  fs::path folder_;
+  bool natural_textures_ = true;
+  std::map<const Mesh*, std::string> mesh_keys_;
+  std::map<std::string, int> name_count_;
+};
+
+} // namespace
+
+std::string candela_json(const Document& document, const std::string& folder) {
+  if (auto problem = document_problem(document); !problem.empty())
+    throw output_error("scene", problem, "correct it before writing");
+  return CandelaWriter(document, folder).run();
+}
+
+void write_candela_json(const Document& document, const std::string& path) {
+  write_file_atomically(path, candela_json(document, folder_of(path)));
+}
+
+} // namespace candela

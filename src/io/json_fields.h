@@ -1,0 +1,33 @@
+#pragma once
+// Rows of the field tables (core/fields.h) as JSON values.
+
+#include "core/fields.h"
+#include "io/json_tree.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace candela {
+
+/// Reads a value into the field at `address`: true/false, a number (an angle in degrees), a string (a
+/// choice), [x, y, z]; a colour may be one number, a grey. Throws input_error at the value for a wrong type
+/// or range; `element` names it in the message ("materials[2].roughness").
+void read_field(const FieldInfo& field, void* address, JsonValue value, std::string_view element);
+
+/// The field's value in JSON, which reads back to the same bits.
+std::string field_json(const FieldInfo& field, const void* address);
+
+// Values that are in no table. All throw input_error at the value.
+void expect(JsonValue value, JsonType type, std::string_view element);
+std::string read_string(JsonValue value, std::string_view element);
+float read_real(JsonValue value, std::string_view element); ///< finite in float
+int read_integer(JsonValue value, std::string_view element, int minimum, int maximum);
+/// An array of exactly out.size() finite numbers.
+void read_reals(JsonValue value, std::span<float> out, std::string_view element);
+vec3 read_vec3(JsonValue value, std::string_view element);
+
+/// The error of a key that means nothing here, with the nearest of the keys that would.
+Error unknown_key(JsonValue key, std::string_view element, std::span<const std::string_view> known);
+
+} // namespace candela

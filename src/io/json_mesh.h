@@ -1,0 +1,18 @@
+#pragma once
+// Inline meshes of Candela JSON.
+
+#include "io/json_tree.h"
+#include "scene/mesh.h"
+
+#include <string>
+#include <string_view>
+
+namespace candela {
+
+/// Reads "positions", "triangles" and so on (io/candela_json.h). Throws input_error at the offending number.
+Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view element);
+
+/// The members of the mesh's JSON object, without the braces, indented for their place in a scene.
+std::string json_mesh_members(const Mesh& mesh, std::string_view indent);
+
+} // namespace candela

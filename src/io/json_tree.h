@@ -1,0 +1,79 @@
+#pragma once
+// A JSON text as a tree in which every token knows its place, so that an error can point at it.
+
+#include "core/error.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace candela {
+
+enum class JsonType : std::uint8_t { null, boolean, number, string, array, object };
+
+class JsonTree;
+
+/// One value of a JsonTree, which must outlive it. Cheap to copy.
+class JsonValue {
+public:
+  JsonValue(const JsonTree& tree, std::uint32_t node) : tree_(&tree), node_(node) {}
+
+  JsonType type() const;
+  Location where() const;         ///< of its first character
+  std::string_view token() const; ///< as it stands in the file; of an array or object the bracket alone
+  bool boolean() const { return token() == "true"; }
+  const std::string& string() const; ///< unescaped; of strings only
+  std::uint32_t size() const;        ///< elements of an array, members of an object
+
+  /// Forward iteration: over the elements of an array; over an object it alternates between key (a string)
+  /// and value.
+  class Iterator {
+  public:
+    Iterator(const JsonTree& tree, std::uint32_t node) : tree_(&tree), node_(node) {}
+    JsonValue operator*() const { return {*tree_, node_}; }
+    Iterator& operator++();
+    bool operator==(const Iterator&) const = default;
+
+  private:
+    const JsonTree* tree_;
+    std::uint32_t node_;
+  };
+  Iterator begin() const { return {*tree_, node_ + 1}; }
+  Iterator end() const;
+
+private:
+  const JsonTree* tree_;
+  std::uint32_t node_;
+};
+
+/// The parsed file. Nodes lie in document order in one array, 16 bytes each, so that a mesh of millions of
+/// numbers is no burden; numbers are kept as text, to be read in the precision that their user has.
+class JsonTree {
+public:
+  /// Parses RFC 8259 JSON; comments (// and /* */) count as space. Throws input_error for syntax errors and
+  /// duplicate keys, limit_error for more than 64 levels or 2^25 values.
+  JsonTree(std::string file, std::string text);
+
+  JsonValue root() const { return {*this, 0}; }
+  const std::string& file() const { return file_; }
+
+private:
+  friend class JsonValue;
+  friend class JsonTreeBuilder;
+  struct Node {
+    std::uint32_t offset; ///< of the token in text_
+    std::uint32_t end;    ///< one past the last node of this subtree
+    std::uint32_t value;  ///< string: index into strings_; array and object: how many children
+    JsonType type;
+  };
+  std::string file_;
+  std::string text_;
+  std::vector<Node> nodes_;
+  std::vector<std::string> strings_;
+};
+
+/// A JSON string literal with its quotes; bytes that are not UTF-8 become U+FFFD.
+std::string json_quoted(std::string_view text);
+
+} // namespace candela

@@ -1,0 +1,44 @@
+#pragma once
+// Which files a scene may name. A scene is somebody else's input: it may refer to files beside and below it,
+// not to the rest of the disk.
+
+#include "core/error.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace candela {
+
+/// A file that exists. `shown` is the path as a person would write it, for messages; `canonical` is absolute
+/// and without symbolic links, for opening, comparing and Mesh::source.
+struct FoundFile {
+  std::string shown;
+  std::string canonical;
+};
+
+/// The folder part of a path, "." for a bare name.
+std::string folder_of(const std::string& path);
+
+class PathPolicy {
+public:
+  /// Files may lie in `root_folder` and below it, or anywhere if allow_outside.
+  PathPolicy(const std::string& root_folder, bool allow_outside);
+
+  /// The regular file that `reference`, written in a file of `base_folder`, means; nothing if there is none.
+  /// Symbolic links are followed before the place is judged. Throws input_error at `where` (of `element`) for
+  /// an absolute path and for a file outside the root, whether it exists or not, unless outside is allowed.
+  /// A backslash counts as a slash where the name as it is does not exist, for files written on Windows.
+  std::optional<FoundFile> find(const std::string& reference, const std::string& base_folder,
+                                const Location& where, std::string_view element) const;
+
+  /// The same, but a missing file is an input_error too.
+  FoundFile require(const std::string& reference, const std::string& base_folder, const Location& where,
+                    std::string_view element) const;
+
+private:
+  std::string root_; ///< canonical
+  bool allow_outside_;
+};
+
+} // namespace candela

@@ -1,0 +1,146 @@
+#include "io/scene_builder.h"
+
+#include "io/text_file.h"
+#include "io/texture_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace candela {
+
+MeshFile& SceneBuilder::mesh_file(const FoundFile& file, const std::string& name, const Location& where,
+                                  std::string_view element) {
+  auto& by_name = meshes_[file.canonical];
+  if (by_name.empty()) {
+    if (lower_ending(file.shown) != ".obj")
+      throw input_error(where, element, fmt::format("'{}' is no mesh file that can be read", file.shown),
+                        "give an OBJ file");
+    ObjModel model = read_obj(file, policy_, tf_, warnings_);
+    std::string key = name.empty() ? model.mesh.name : name;
+    model.mesh.name = key;
+    std::vector<int> none(model.materials.size(), -1);
+    return by_name[key] = {std::make_shared<const Mesh>(std::move(model.mesh)), std::move(model.materials),
+                           none};
+  }
+  const MeshFile& first = by_name.begin()->second;
+  std::string key = name;
+  if (key.empty()) key = std::filesystem::path(file.shown).stem().string();
+  if (auto known = by_name.find(key); known != by_name.end()) return known->second;
+  Mesh renamed = *first.mesh;
+  renamed.name = key;
+  std::vector<int> none(first.mtl.size(), -1);
+  return by_name[key] = {std::make_shared<const Mesh>(std::move(renamed)), first.mtl, none};
+}
+
+int SceneBuilder::texture(const FoundFile& file) {
+  if (auto known = textures_.find(file.canonical); known != textures_.end()) return known->second;
+  return append_texture(file);
+}
+
+int SceneBuilder::append_texture(const FoundFile& file) {
+  auto known = textures_.find(file.canonical);
+  auto texture = known == textures_.end() ? read_texture(file.canonical)
+                                          : scene_.textures[static_cast<std::size_t>(known->second)];
+  auto index = static_cast<int>(scene_.textures.size());
+  scene_.textures.push_back(std::move(texture));
+  textures_.try_emplace(file.canonical, index);
+  return index;
+}
+
+std::string SceneBuilder::unused_material_name(const std::string& wish) const {
+  std::string name = wish;
+  for (int i = 2; material_names_.contains(name); ++i) name = fmt::format("{}-{}", wish, i);
+  return name;
+}
+
+int SceneBuilder::add_material(Material material) {
+  material_names_.insert(material.name);
+  scene_.materials.push_back(std::move(material));
+  return static_cast<int>(scene_.materials.size()) - 1;
+}
+
+int add_mtl_material(SceneBuilder& builder, const MtlMaterial& source, const std::string& name) {
+  Material material = source.material;
+  material.name = name;
+  if (source.diffuse_texture) material.diffuse_texture = builder.texture(*source.diffuse_texture);
+  return builder.add_material(std::move(material));
+}
+
+int SceneBuilder::imported_material(MeshFile& file, std::size_t slot) {
+  if (!file.mtl[slot]) return -1;
+  int& index = file.imported[slot];
+  if (index < 0)
+    index = add_mtl_material(
+        *this, *file.mtl[slot],
+        unused_material_name(fmt::format("{}/{}", file.mesh->name, file.mesh->slot_names[slot])));
+  return index;
+}
+
+int SceneBuilder::default_material() {
+  if (default_material_ < 0) {
+    Material grey;
+    grey.name = unused_material_name("default");
+    default_material_ = add_material(std::move(grey));
+  }
+  return default_material_;
+}
+
+namespace {
+
+Bounds3 object_bounds(const Shape& shape) {
+  Bounds3 box;
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape)) {
+    for (vec3 p : (*mesh)->positions) box.grow(p);
+  } else if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
+    box = {vec3(-sphere->radius), vec3(sphere->radius)};
+  } else {
+    box = {vec3(-1, -1, 0), vec3(1, 1, 0)};
+  }
+  return box;
+}
+
+} // namespace
+
+Bounds3 scene_bounds(const SceneDesc& scene) {
+  std::map<const Mesh*, Bounds3> meshes; // shared ones are looked through once
+  Bounds3 all;
+  for (const Instance& instance : scene.instances) {
+    Bounds3 box;
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
+      auto [known, is_new] = meshes.try_emplace(mesh->get());
+      if (is_new) known->second = object_bounds(instance.shape);
+      box = known->second;
+    } else {
+      box = object_bounds(instance.shape);
+    }
+    if (box.empty()) continue;
+    for (int corner = 0; corner < 8; ++corner)
+      all.grow(transform_point(instance.world_from_object,
+                               {(corner & 1) ? box.hi.x : box.lo.x, (corner & 2) ? box.hi.y : box.lo.y,
+                                (corner & 4) ? box.hi.z : box.lo.z}));
+  }
+  return all;
+}
+
+bool has_light(const SceneDesc& scene) {
+  auto shines = [&](int material) {
+    return !is_black(scene.materials[static_cast<std::size_t>(material)].emission);
+  };
+  return std::ranges::any_of(scene.lights,
+                             [](const LightDesc& l) { return l.scale > 0 && !is_black(l.color); }) ||
+         std::ranges::any_of(scene.instances,
+                             [&](const Instance& i) { return std::ranges::any_of(i.materials, shines); });
+}
+
+void frame_camera(Camera& camera, const Bounds3& bounds) {
+  float radius = std::max(0.5f * glm::length(bounds.diagonal()), 1e-6f);
+  // A sphere about the bounds touches the view cone; a little more leaves a margin.
+  float distance = 1.05f * radius / std::sin(0.5f * camera.vertical_fov);
+  camera.target = bounds.center();
+  camera.position = camera.target + distance * glm::normalize(vec3(0.3f, 0.25f, 1));
+  camera.up = {0, 1, 0};
+}
+
+} // namespace candela

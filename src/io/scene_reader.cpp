@@ -1,0 +1,79 @@
+#include "io/scene_reader.h"
+
+#include "io/cs123_reader.h"
+#include "io/ini_job.h"
+#include "io/text_file.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace candela {
+
+namespace {
+
+Document read_obj_scene(const FoundFile& file, const PathPolicy& policy, WarningList& warnings) {
+  Document document;
+  SceneBuilder builder(document.scene, policy, TfMeaning::filter, warnings);
+  MeshFile& mesh = builder.mesh_file(file, "", {file.shown}, "mesh");
+  Instance instance;
+  instance.name = mesh.mesh->name;
+  instance.shape = mesh.mesh;
+  for (std::size_t slot = 0; slot < mesh.mesh->slot_names.size(); ++slot) {
+    int material = builder.imported_material(mesh, slot);
+    if (material < 0) {
+      warnings.add({file.shown}, fmt::format("the faces of '{}' have no material: a grey is taken",
+                                             mesh.mesh->slot_names[slot].substr(0, 100)));
+      material = builder.default_material();
+    }
+    instance.materials.push_back(material);
+  }
+  document.scene.instances.push_back(std::move(instance));
+  frame_camera(document.scene.camera, scene_bounds(document.scene));
+  if (!has_light(document.scene)) {
+    LightDesc sky;
+    sky.name = "sky";
+    sky.type = LightType::constant;
+    document.scene.lights.push_back(std::move(sky));
+    warnings.add({file.shown}, "nothing shines: a constant light is added");
+  }
+  return document;
+}
+
+/// Reads any format but .ini.
+Document read_by_ending(const FoundFile& file, const ReadOptions& options, const Location& where,
+                        WarningList& warnings) {
+  PathPolicy policy(folder_of(file.shown), options.allow_outside);
+  std::string ending = lower_ending(file.shown);
+  if (ending == ".json") return read_candela_json(file, policy, warnings);
+  if (ending == ".obj") return read_obj_scene(file, policy, warnings);
+  if (ending == ".xml") return read_cs123(file, policy, warnings);
+  throw input_error(where, "scene", fmt::format("no scene format is known by the ending '{}'", ending),
+                    "give a .json, .obj, .xml or .ini file");
+}
+
+} // namespace
+
+LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
+  WarningList warnings;
+  LoadedScene loaded;
+  if (lower_ending(path) == ".ini") {
+    IniJob job = read_ini_job(path, options.allow_outside);
+    loaded.document = read_by_ending(job.scene, options, {path}, warnings);
+    loaded.document.settings = job.settings;
+    if (!job.output.empty()) loaded.output_files.push_back(job.output);
+  } else {
+    // The scene itself may lie anywhere: the user has named it. Opening it says what is wrong with it.
+    std::error_code failed;
+    std::filesystem::path canonical =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(path), failed);
+    FoundFile file{path, failed ? path : canonical.string()};
+    loaded.document = read_by_ending(file, options, {path}, warnings);
+  }
+  const SceneDesc& scene = loaded.document.scene;
+  if (!has_light(scene)) warnings.add({path}, "nothing in the scene shines: the picture will be black");
+  loaded.warnings = warnings.warnings();
+  return loaded;
+}
+
+} // namespace candela

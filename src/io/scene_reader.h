@@ -1,0 +1,34 @@
+#pragma once
+// The front door to all scene formats.
+
+#include "io/candela_json.h"
+#include "io/warning_list.h"
+#include "scene/document.h"
+
+#include <string>
+#include <vector>
+
+namespace candela {
+
+struct ReadOptions {
+  bool allow_outside = false; ///< may a scene name files outside of its own folder's tree?
+};
+
+struct LoadedScene {
+  Document document;
+  std::vector<Warning> warnings;
+  std::vector<std::string> output_files; ///< what an .ini job names
+};
+
+/// Reads a scene by the ending of its name, in either case:
+///
+/// - .json: Candela's own format (io/candela_json.h)
+/// - .obj: the mesh alone, framed by the camera; if nothing in it shines, a constant light is added
+/// - .xml: CS123 (io/cs123_reader.h)
+/// - .ini: a job of the path tracing assignment (io/ini_job.h), which names one of the others
+///
+/// Throws Error with the exit code 3 (what the file says does not fit) or 4 (a limit), and a message
+/// `file:line:col: element: cause: remedy`.
+LoadedScene read_scene(const std::string& path, const ReadOptions& options = {});
+
+} // namespace candela

@@ -1,0 +1,82 @@
+#include "io/text_file.h"
+
+#include "io/file_bytes.h"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace candela {
+
+std::string read_text_file(const std::string& path, const char* element, std::size_t max_bytes) {
+  Bytes bytes = read_file_bytes(path, element, max_bytes);
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  if (auto nul = text.find('\0'); nul != std::string_view::npos)
+    throw input_error(locate(path, text, nul), element, "a NUL byte: this is no text file",
+                      "give a text file in UTF-8");
+  return std::string(text);
+}
+
+Location locate(const std::string& file, std::string_view text, std::size_t offset) {
+  std::string_view before = text.substr(0, std::min(offset, text.size()));
+  auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  auto last_break = before.rfind('\n');
+  std::size_t column = last_break == std::string_view::npos ? before.size() + 1 : before.size() - last_break;
+  return {file, static_cast<int>(line), static_cast<int>(column)};
+}
+
+std::string_view trimmed(std::string_view text) {
+  auto first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+namespace {
+
+/// Length of the valid UTF-8 sequence at the front (RFC 3629), 0 if there is none.
+std::size_t sequence_length(std::string_view s) {
+  auto byte = [&](std::size_t i) {
+    return i < s.size() ? static_cast<unsigned>(static_cast<unsigned char>(s[i])) : 0u;
+  };
+  auto follows = [&](std::size_t i) { return (byte(i) & 0xc0u) == 0x80u; };
+  unsigned a = byte(0);
+  if (a < 0x80) return 1;
+  if (a >= 0xc2 && a <= 0xdf) return follows(1) ? 2 : 0;
+  if (a >= 0xe0 && a <= 0xef) {
+    bool overlong = a == 0xe0 && byte(1) < 0xa0, surrogate = a == 0xed && byte(1) > 0x9f;
+    return follows(1) && follows(2) && !overlong && !surrogate ? 3 : 0;
+  }
+  if (a >= 0xf0 && a <= 0xf4) {
+    bool overlong = a == 0xf0 && byte(1) < 0x90, too_large = a == 0xf4 && byte(1) > 0x8f;
+    return follows(1) && follows(2) && follows(3) && !overlong && !too_large ? 4 : 0;
+  }
+  return 0;
+}
+
+} // namespace
+
+std::string utf8_name(std::string_view bytes) {
+  std::string out;
+  while (!bytes.empty()) {
+    std::size_t n = sequence_length(bytes);
+    if (n > 0) {
+      out += bytes.substr(0, n);
+      bytes.remove_prefix(n);
+    } else {
+      auto c = static_cast<unsigned char>(bytes[0]);
+      out += static_cast<char>(0xc0 | (c >> 6));
+      out += static_cast<char>(0x80 | (c & 0x3f));
+      bytes.remove_prefix(1);
+    }
+  }
+  return out;
+}
+
+std::string lower_ending(std::string_view path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return ending;
+}
+
+} // namespace candela

@@ -1,0 +1,29 @@
+#pragma once
+// Text files in memory, and the way from an offset in them back to a line and a column.
+
+#include "core/error.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace candela {
+
+/// Reads a text file whole; a UTF-8 byte order mark is dropped. Throws input_error if it is missing, no
+/// regular file or holds a NUL byte (then it is no text), limit_error above max_bytes, before it allocates.
+/// `element` says in messages what the file was to be ("scene", "mesh").
+std::string read_text_file(const std::string& path, const char* element, std::size_t max_bytes);
+
+/// The line and column (from 1, in bytes) of text[offset]; offset == text.size() is the end of the file.
+Location locate(const std::string& file, std::string_view text, std::size_t offset);
+
+/// Without the spaces, tabs and line ends at both ends.
+std::string_view trimmed(std::string_view text);
+
+/// Names go into JSON, which is UTF-8. Bytes that are not are taken for Latin-1, as old exporters write it.
+std::string utf8_name(std::string_view bytes);
+
+/// The ending of a path in lower case: ".obj"; empty if it has none.
+std::string lower_ending(std::string_view path);
+
+} // namespace candela
