@@ -12,11 +12,11 @@ struct LaneHits {
   alignas(32) std::array<float, kWidth> t;
 };
 
-/// The lane of least t; the lowest such lane.
-inline int closest_lane(const LaneHits& hits) {
-  int best = std::countr_zero(hits.lanes);
-  simd::for_each_lane(hits.lanes & (hits.lanes - 1), [&](int lane) {
-    if (hits.t[static_cast<std::size_t>(lane)] < hits.t[static_cast<std::size_t>(best)]) best = lane;
+/// The lane of least t among some; the lowest such lane.
+inline int closest_lane(simd::LaneMask lanes, const std::array<float, kWidth>& t) {
+  int best = std::countr_zero(lanes);
+  simd::for_each_lane(lanes & (lanes - 1), [&](int lane) {
+    if (t[static_cast<std::size_t>(lane)] < t[static_cast<std::size_t>(best)]) best = lane;
   });
   return best;
 }
@@ -32,31 +32,28 @@ struct ShearedRay {
   F shear_x, shear_y, scale_z;
 
   explicit ShearedRay(const Ray& ray) {
-    vec3 size = glm::abs(ray.direction);
-    kz = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-    kx = kz == 2 ? 0 : kz + 1;
-    ky = kx == 2 ? 0 : kx + 1;
-    // The winding may turn over: the test takes both sides.
-    auto at = [](vec3 v, std::size_t axis) { return v[static_cast<int>(axis)]; };
-    float inverse_z = 1 / at(ray.direction, kz);
-    origin_x = F(at(ray.origin, kx)), origin_y = F(at(ray.origin, ky)), origin_z = F(at(ray.origin, kz));
-    shear_x = F(at(ray.direction, kx) * inverse_z);
-    shear_y = F(at(ray.direction, ky) * inverse_z);
+    // By arithmetic and through memory: branches on the axis (GLM's operator[] is a switch) would be
+    // mispredicted for every other diffuse ray. The winding may turn over, for the test takes both sides.
+    const std::array<float, 3> o{ray.origin.x, ray.origin.y, ray.origin.z};
+    const std::array<float, 3> d{ray.direction.x, ray.direction.y, ray.direction.z};
+    float size_x = std::abs(d[0]), size_y = std::abs(d[1]), size_z = std::abs(d[2]);
+    std::size_t y_largest = size_y > size_x, z_largest = size_z > std::max(size_x, size_y);
+    kz = std::max(y_largest, 2 * z_largest);
+    constexpr std::array<std::uint8_t, 3> kNext{1, 2, 0};
+    kx = kNext[kz], ky = kNext[kx];
+    float inverse_z = 1 / d[kz];
+    origin_x = F(o[kx]), origin_y = F(o[ky]), origin_z = F(o[kz]);
+    shear_x = F(d[kx] * inverse_z), shear_y = F(d[ky] * inverse_z);
     scale_z = F(inverse_z);
   }
-};
-
-/// Also the scaled barycentrics of the lanes that were hit.
-struct TriangleHits : LaneHits {
-  alignas(32) std::array<float, kWidth> edge_v, edge_w, determinant;
 };
 
 /// The edge functions again in double precision, for the lanes where one of them is 0 in single precision:
 /// the product of two floats is exact in double, so the sign is that of the exact value and 0 means on the
 /// edge. Gives the lanes that stay hit.
 template <class F>
-inline simd::LaneMask resolve_edges(simd::LaneMask lanes, const std::array<F, 3>& x,
-                                    const std::array<F, 3>& y, F& u, F& v, F& w) {
+[[gnu::noinline]] simd::LaneMask resolve_edges(simd::LaneMask lanes, const std::array<F, 3>& x,
+                                               const std::array<F, 3>& y, F& u, F& v, F& w) {
   alignas(32) float xs[3][kWidth], ys[3][kWidth], us[kWidth], vs[kWidth], ws[kWidth];
   for (std::size_t k = 0; k < 3; ++k) x[k].store(xs[k]), y[k].store(ys[k]);
   u.store(us), v.store(vs), w.store(ws);
@@ -74,9 +71,11 @@ inline simd::LaneMask resolve_edges(simd::LaneMask lanes, const std::array<F, 3>
   return hit;
 }
 
-template <class F>
-inline void intersect_triangles(const TrianglePack& pack, const ShearedRay<F>& ray, float t_min, float t_max,
-                                TriangleHits& hits) {
+/// Whether a triangle is hit with t in (t_min, t_max). For the closest hit, sets hit and lowers t_max to its
+/// t.
+template <class F, bool any_hit>
+[[gnu::always_inline]] inline bool meet_triangles(const TrianglePack& pack, const ShearedRay<F>& ray,
+                                                  float t_min, float& t_max, Hit& hit) {
   std::array<F, 3> x, y, z;
   for (std::size_t k = 0; k < 3; ++k) {
     z[k] = F::load(pack.vertex[k][ray.kz].data()) - ray.origin_z;
@@ -92,8 +91,7 @@ inline void intersect_triangles(const TrianglePack& pack, const ShearedRay<F>& r
   // the least or the greatest of the three.
   F zero(0.0f), least = min(u, min(v, w)), greatest = max(u, max(v, w));
   simd::LaneMask lanes = less_equal(zero, least) | less_equal(greatest, zero);
-  hits.lanes = 0;
-  if (!lanes) return;
+  if (!lanes) return false;
   if (simd::LaneMask on_edge = lanes & (equal(least, zero) | equal(greatest, zero))) [[unlikely]]
     lanes = (lanes & ~on_edge) | resolve_edges(on_edge, x, y, u, v, w);
 
@@ -102,10 +100,23 @@ inline void intersect_triangles(const TrianglePack& pack, const ShearedRay<F>& r
   F determinant = u + v + w;
   F t = (u * z[0] + v * z[1] + w * z[2]) * ray.scale_z / determinant;
   lanes &= less(F(t_min), t) & less(t, F(t_max));
-  hits.lanes = lanes;
-  if (!lanes) return;
-  t.store(hits.t.data());
-  v.store(hits.edge_v.data()), w.store(hits.edge_w.data()), determinant.store(hits.determinant.data());
+  if (!lanes) return false;
+  if constexpr (any_hit) return true;
+
+  int lane = std::countr_zero(lanes);
+  t_max = first_lane(t, lanes);
+  if (lanes & (lanes - 1)) [[unlikely]] {
+    alignas(32) std::array<float, kWidth> ts;
+    t.store(ts.data());
+    lane = closest_lane(lanes, ts);
+    t_max = ts[static_cast<std::size_t>(lane)];
+  }
+  alignas(32) std::array<float, kWidth> vs, ws, determinants;
+  v.store(vs.data()), w.store(ws.data()), determinant.store(determinants.data());
+  auto i = static_cast<std::size_t>(lane);
+  float inverse = 1 / determinants[i];
+  hit = {t_max, vs[i] * inverse, ws[i] * inverse, pack.primitive[i], kNoInstance, PrimitiveKind::triangle};
+  return true;
 }
 
 /// Both roots without cancellation, also for small and far spheres (Haines et al. 2019, "Precision

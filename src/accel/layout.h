@@ -70,8 +70,8 @@ struct InstanceRecord {
 
 /// The builder keeps every way from the root to a leaf shorter than this.
 inline constexpr int kMaxDepth = 62;
-/// A visited node leaves at most seven children waiting.
-inline constexpr int kStackSize = (kWidth - 1) * kMaxDepth + 1;
+/// A visited node leaves at most seven children waiting; eight are written at once.
+inline constexpr int kStackSize = (kWidth - 1) * kMaxDepth + kWidth;
 
 struct AccelTree {
   ChildRef root;

@@ -7,12 +7,22 @@
 // lowest. Bits in an integer register cost a move but make "any", "which" and loops over lanes free of
 // shuffles.
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
 #if defined(__SSE2__)
+#if defined(__GNUC__) && !defined(__clang__)
+// GCC 12 takes the intrinsics' own undefined operands for a mistake (PR 105593).
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#endif
 #include <immintrin.h>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 #endif
 
 namespace candela::simd {
@@ -26,6 +36,15 @@ template <class Function>
 inline void for_each_lane(LaneMask lanes, Function&& f) {
   for (; lanes; lanes &= lanes - 1) f(std::countr_zero(lanes));
 }
+
+/// Something with a key to sort by. The key comes second, so that on this little-endian machine the whole is
+/// an integer of 64 bits that sorts by key (if that is not negative), then by value.
+template <class Value>
+struct Keyed {
+  static_assert(sizeof(Value) == 4 && std::endian::native == std::endian::little);
+  Value value;
+  float key;
+};
 
 /// Two halves of four rather than one vector of eight, whose calling convention depends on compiler flags.
 struct PortableFloat8 {
@@ -62,6 +81,12 @@ struct PortableFloat8 {
   /// a < b ? x : y
   friend PortableFloat8 select_less(PortableFloat8 a, PortableFloat8 b, PortableFloat8 x, PortableFloat8 y) {
     return {blend(a.lo < b.lo, x.lo, y.lo), blend(a.hi < b.hi, x.hi, y.hi)};
+  }
+
+  /// Of the lowest of the lanes, of which there is one at least.
+  friend float first_lane(PortableFloat8 a, LaneMask lanes) {
+    int i = std::countr_zero(lanes);
+    return i < 4 ? a.lo[i] : a.hi[i - 4];
   }
 
 private:
@@ -108,6 +133,17 @@ struct AvxFloat8 {
     return _mm256_blendv_ps(y.v, x.v, _mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ));
   }
 
+  friend float first_lane(AvxFloat8 a, LaneMask lanes) {
+#if defined(__AVX512VL__)
+    // A shuffle has half the latency of memory, and the next box test waits for this.
+    return _mm256_cvtss_f32(_mm256_maskz_compress_ps(static_cast<__mmask8>(lanes), a.v));
+#else
+    alignas(32) float lane[kLanes];
+    a.store(lane);
+    return lane[std::countr_zero(lanes)];
+#endif
+  }
+
 private:
   template <int predicate>
   static LaneMask compare(AvxFloat8 a, AvxFloat8 b) {
@@ -132,5 +168,60 @@ template <class F>
 inline F with_sign_of(F magnitude, F a) {
   return select_less(a, F(0.0f), F(0.0f) - magnitude, magnitude);
 }
+
+/// Stores (value[i], keys[i]) of the lanes at `out`, the greatest key first and equal keys by value, and
+/// gives how many; out has room for eight whatever that is. No key is negative.
+template <class F, class Value>
+inline int store_descending(F keys, const std::array<Value, kLanes>& values, LaneMask lanes,
+                            Keyed<Value>* out) {
+  alignas(32) std::array<float, kLanes> key;
+  keys.store(key.data());
+  int count = 0;
+  for_each_lane(lanes, [&](int lane) {
+    auto i = static_cast<std::size_t>(lane);
+    Keyed<Value> entry{values[i], key[i]};
+    auto bits = [](Keyed<Value> e) { return std::bit_cast<std::uint64_t>(e); };
+    int at = count++;
+    for (; at > 0 && bits(out[at - 1]) < bits(entry); --at) out[at] = out[at - 1];
+    out[at] = entry;
+  });
+  return count;
+}
+
+#if defined(__AVX512VL__) && !defined(NOSORT)
+
+/// A bitonic network in one register: the mispredicted branches of an insertion sort cost more.
+template <class Value>
+inline int store_descending(AvxFloat8 keys, const std::array<Value, kLanes>& values, LaneMask lanes,
+                            Keyed<Value>* out) {
+  const __m512i interleave = _mm512_setr_epi32(0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
+  __m256i value = _mm256_load_si256(reinterpret_cast<const __m256i*>(values.data()));
+  __m512i both = _mm512_inserti64x4(_mm512_castsi256_si512(value), _mm256_castps_si256(keys.v), 1);
+  // Used lanes first; the others become 0 and so stay last.
+  __m512i e =
+      _mm512_maskz_compress_epi64(static_cast<__mmask8>(lanes), _mm512_permutexvar_epi32(interleave, both));
+  // Lanes in `lesser` keep the lesser of themselves and their partner, the others the greater.
+  auto exchange = [&e](__mmask8 lesser, __m512i partner) {
+    e = _mm512_mask_min_epu64(_mm512_max_epu64(e, partner), lesser, e, partner);
+  };
+  auto partner_1 = [&e] { return _mm512_shuffle_epi32(e, _MM_PERM_BADC); };
+  auto partner_2 = [&e] { return _mm512_permutex_epi64(e, 0b01001110); };
+  auto partner_4 = [&e] { return _mm512_shuffle_i64x2(e, e, 0b01001110); };
+  int count = std::popcount(lanes);
+  exchange(0b01100110, partner_1());
+  if (count > 2) {
+    exchange(0b00111100, partner_2());
+    exchange(0b01011010, partner_1());
+    if (count > 4) {
+      exchange(0b11110000, partner_4());
+      exchange(0b11001100, partner_2());
+      exchange(0b10101010, partner_1());
+    }
+  }
+  _mm512_storeu_si512(out, e);
+  return count;
+}
+
+#endif
 
 } // namespace candela::simd

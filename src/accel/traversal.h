@@ -50,134 +50,103 @@ struct BoxRay {
   }
 };
 
+/// A child that waits to be visited.
+using Waiting = simd::Keyed<ChildRef>;
+
 template <class F, bool any_hit>
-class Tracer {
-public:
-  /// Meets what lies in (ray.t_min, ray.t_max). For the closest hit, hit.t and the rest are set.
-  static bool trace(const AccelTree& tree, const Ray& ray, Hit& hit) { return Tracer(tree, ray, hit).run(); }
+bool trace(const AccelTree& tree, const Ray& ray, Hit& hit);
 
-private:
-  struct Entry {
-    ChildRef ref;
-    float t_enter;
+/// Spheres, discs and instances; out of line, for the registers belong to triangles.
+template <class F, bool any_hit>
+[[gnu::noinline]] bool meet_other_leaf(const AccelTree& tree, const Ray& ray, ChildRef leaf, float t_min,
+                                       float t_max, Hit& hit) {
+  auto accept = [&](const std::array<std::uint32_t, kWidth>& primitive, PrimitiveKind kind,
+                    const LaneHits& lanes) {
+    if (!lanes.lanes) return false;
+    if constexpr (!any_hit) {
+      auto lane = static_cast<std::size_t>(closest_lane(lanes.lanes, lanes.t));
+      hit = {lanes.t[lane], 0, 0, primitive[lane], kNoInstance, kind};
+    }
+    return true;
   };
-
-  Tracer(const AccelTree& tree, const Ray& ray, Hit& hit)
-      : tree_(tree), ray_(ray), hit_(hit), sheared_(ray), t_max_(ray.t_max) {}
-
-  bool run() {
-    if (tree_.root.is_leaf()) return meet_leaf(tree_.root);
-    // NaN would meet every box and walk the whole tree.
-    vec3 sum = ray_.origin + ray_.direction;
-    if (!std::isfinite(sum.x + sum.y + sum.z)) return false;
-    const BoxRay<F> box_ray(ray_, tree_.bounds);
-    const F t_min(ray_.t_min);
-    bool found = false;
-    std::array<Entry, kStackSize> stack;
-    Entry* top = stack.data();
-    ChildRef current = tree_.root;
-    for (;;) {
-      if (current.is_leaf()) {
-        if (meet_leaf(current)) {
-          if constexpr (any_hit) return true;
-          found = true;
-        }
-      } else {
-        const WideNode& node = tree_.nodes[current.index()];
-        F t_enter;
-        simd::LaneMask lanes = box_ray.intersect(node, t_min, F(t_max_), t_enter);
-        if (lanes) {
-          alignas(32) std::array<float, kWidth> t;
-          t_enter.store(t.data());
-          current = push_but_nearest(node, t, lanes, top);
-          continue;
-        }
-      }
-      do {
-        if (top == stack.data()) return found;
-        --top;
-      } while (top->t_enter > t_max_);
-      current = top->ref;
-    }
+  LaneHits lanes;
+  switch (leaf.kind()) {
+  case LeafKind::triangles: break;
+  case LeafKind::spheres: {
+    const SpherePack& pack = tree.spheres[leaf.index()];
+    intersect_spheres<F>(pack, ray, t_min, t_max, lanes);
+    return accept(pack.primitive, PrimitiveKind::sphere, lanes);
   }
-
-  static ChildRef push_but_nearest(const WideNode& node, const std::array<float, kWidth>& t,
-                                   simd::LaneMask lanes, Entry*& top) {
-    auto entry = [&](int lane) {
-      auto i = static_cast<std::size_t>(lane);
-      return Entry{node.child[i], t[i]};
-    };
-    Entry nearest = entry(std::countr_zero(lanes));
-    Entry* base = top;
-    simd::for_each_lane(lanes & (lanes - 1), [&](int lane) {
-      Entry e = entry(lane);
-      if (e.t_enter < nearest.t_enter) std::swap(e, nearest);
-      // Insertion keeps the waiting ones sorted, the farthest lowest.
-      Entry* at = top++;
-      for (; at != base && (at - 1)->t_enter < e.t_enter; --at) *at = *(at - 1);
-      *at = e;
-    });
-    return nearest.ref;
+  case LeafKind::discs: {
+    const DiscPack& pack = tree.discs[leaf.index()];
+    intersect_discs<F>(pack, ray, t_min, t_max, lanes);
+    return accept(pack.primitive, PrimitiveKind::disc, lanes);
   }
-
-  bool meet_leaf(ChildRef leaf) {
-    switch (leaf.kind()) {
-    case LeafKind::triangles: return meet_triangles(tree_.triangles[leaf.index()]);
-    case LeafKind::spheres: {
-      LaneHits lanes;
-      const SpherePack& pack = tree_.spheres[leaf.index()];
-      intersect_spheres<F>(pack, ray_, ray_.t_min, t_max_, lanes);
-      return accept(pack.primitive, PrimitiveKind::sphere, lanes);
-    }
-    case LeafKind::discs: {
-      LaneHits lanes;
-      const DiscPack& pack = tree_.discs[leaf.index()];
-      intersect_discs<F>(pack, ray_, ray_.t_min, t_max_, lanes);
-      return accept(pack.primitive, PrimitiveKind::disc, lanes);
-    }
-    case LeafKind::instance: return meet_instance(tree_.instances[leaf.index()]);
-    }
-    return false;
-  }
-
-  bool meet_triangles(const TrianglePack& pack) {
-    TriangleHits lanes;
-    intersect_triangles(pack, sheared_, ray_.t_min, t_max_, lanes);
-    if (!lanes.lanes) return false;
-    if constexpr (any_hit) return true;
-    auto lane = static_cast<std::size_t>(closest_lane(lanes));
-    t_max_ = lanes.t[lane];
-    float inverse = 1 / lanes.determinant[lane];
-    hit_ = {t_max_,      lanes.edge_v[lane] * inverse, lanes.edge_w[lane] * inverse, pack.primitive[lane],
-            kNoInstance, PrimitiveKind::triangle};
-    return true;
-  }
-
-  bool accept(const std::array<std::uint32_t, kWidth>& primitive, PrimitiveKind kind, const LaneHits& lanes) {
-    if (!lanes.lanes) return false;
-    if constexpr (any_hit) return true;
-    auto lane = static_cast<std::size_t>(closest_lane(lanes));
-    t_max_ = lanes.t[lane];
-    hit_ = {t_max_, 0, 0, primitive[lane], kNoInstance, kind};
-    return true;
-  }
-
-  /// In the object's space t stays the same, for the direction is not renormalised.
-  bool meet_instance(const InstanceRecord& instance) {
+  case LeafKind::instance: {
+    // In the object's space t stays the same, for the direction is not renormalised.
+    const InstanceRecord& instance = tree.instances[leaf.index()];
     const auto& m = instance.object_from_world;
-    Ray local{m * vec4(ray_.origin, 1), ray_.t_min, m * vec4(ray_.direction, 0), t_max_};
-    if (!trace(*instance.object, local, hit_)) return false;
-    if constexpr (any_hit) return true;
-    t_max_ = hit_.t;
-    hit_.instance = instance.index;
+    Ray local{m * vec4(ray.origin, 1), ray.t_min, m * vec4(ray.direction, 0), t_max};
+    if (!trace<F, any_hit>(*instance.object, local, hit)) return false;
+    hit.instance = instance.index;
     return true;
   }
+  }
+  return false;
+}
 
-  const AccelTree& tree_;
-  const Ray& ray_;
-  Hit& hit_;
-  ShearedRay<F> sheared_;
-  float t_max_;
-};
+/// Whether the ray meets something in (max(ray.t_min, 0), ray.t_max). For the closest hit, sets
+/// hit.
+template <class F, bool any_hit>
+bool trace(const AccelTree& tree, const Ray& ray, Hit& hit) {
+  const ShearedRay<F> sheared(ray);
+  const float t_min = std::max(ray.t_min, 0.0f);
+  float t_max = ray.t_max;
+  bool found = false;
+  auto meet_leaf = [&](ChildRef leaf) __attribute__((always_inline)) {
+    if (leaf.kind() == LeafKind::triangles) [[likely]]
+      return meet_triangles<F, any_hit>(tree.triangles[leaf.index()], sheared, t_min, t_max, hit);
+    if (!meet_other_leaf<F, any_hit>(tree, ray, leaf, t_min, t_max, hit)) return false;
+    if constexpr (!any_hit) t_max = hit.t;
+    return true;
+  };
+  if (tree.root.is_leaf()) return meet_leaf(tree.root);
+
+  // NaN would meet every box and walk the whole tree.
+  vec3 sum = ray.origin + ray.direction;
+  if (!std::isfinite(sum.x + sum.y + sum.z)) return false;
+  const BoxRay<F> box_ray(ray, tree.bounds);
+  const F t_min8(t_min);
+  const WideNode* nodes = tree.nodes.data();
+  std::array<Waiting, kStackSize> stack;
+  Waiting* top = stack.data();
+  ChildRef current = tree.root;
+  for (;;) {
+    if (current.is_leaf()) {
+      if (meet_leaf(current)) {
+        if constexpr (any_hit) return true;
+        found = true;
+      }
+    } else {
+      const WideNode& node = nodes[current.index()];
+      F t_enter;
+      simd::LaneMask lanes = box_ray.intersect(node, t_min8, F(t_max), t_enter);
+      if (lanes) {
+        if ((lanes & (lanes - 1)) == 0) {
+          current = node.child[static_cast<std::size_t>(std::countr_zero(lanes))];
+        } else {
+          top += simd::store_descending(t_enter, node.child, lanes, top) - 1;
+          current = top->value;
+        }
+        continue;
+      }
+    }
+    do {
+      if (top == stack.data()) return found;
+      --top;
+    } while (top->key > t_max);
+    current = top->value;
+  }
+}
 
 } // namespace candela::accel_detail

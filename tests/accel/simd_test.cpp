@@ -102,11 +102,11 @@ TEST(AccelPortable, FindsTheSameHits) {
     Ray ray{origin, 0, random.in_cube() - origin, i % 4 ? kInfinity : 0.7f};
     if (i % 7 == 0) ray.direction.x = 0;
     Hit portable;
-    bool found = accel_detail::Tracer<simd::PortableFloat8, false>::trace(tree, ray, portable);
+    bool found = accel_detail::trace<simd::PortableFloat8, false>(tree, ray, portable);
     auto hit = accel.intersect(ray);
     ASSERT_EQ(found, hit.has_value());
     Hit unused;
-    ASSERT_EQ((accel_detail::Tracer<simd::PortableFloat8, true>::trace(tree, ray, unused)),
+    ASSERT_EQ((accel_detail::trace<simd::PortableFloat8, true>(tree, ray, unused)),
               accel.occluded(ray));
     if (!found) continue;
     ++hits;

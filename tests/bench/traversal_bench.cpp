@@ -2,13 +2,13 @@
 // numbers drift with the machine, the ratio does not. Single rays on both sides (rtcIntersect1, rtcOccluded1;
 // robust scenes).
 //
-//   traversal_bench [--short] [--scene NAME] [--threads N]
+//   traversal_bench [--short] [--scene NAME] [--threads N] [--rays-only]
 //
 // Each line: scene, ray set, threads, Mrays/s of ours (high build), of Embree (MEDIUM and HIGH builds), the
 // ratios.
 
 #include "accel/accel.h"
-#include "core/frame.h"
+#include "core/basis.h"
 #include "core/hash.h"
 
 #include <fmt/format.h>
@@ -33,6 +33,7 @@ struct Options {
   bool quick = false;
   std::string scene;
   int threads = 2;
+  bool rays_only = false; ///< do not time builds
 };
 
 struct TriangleMesh {
@@ -156,7 +157,7 @@ float random(std::uint32_t index, std::uint32_t dimension) {
 /// A pinhole camera's rays, tile by tile as a renderer traces them.
 std::vector<Ray> primary_rays(const View& view, std::uint32_t size) {
   constexpr std::uint32_t kTile = 16;
-  Frame frame = Frame::from_normal(glm::normalize(view.target - view.eye));
+  Basis frame = Basis::from_normal(glm::normalize(view.target - view.eye));
   vec3 right = glm::normalize(glm::cross(frame.n, vec3(0, 1, 0))), up = glm::cross(right, frame.n);
   float scale = std::tan(0.5f * view.fov_y);
   std::vector<Ray> rays;
@@ -190,7 +191,7 @@ RaySets make_rays(const BenchScene& scene, const Accel& accel, std::uint32_t siz
     vec3 p = ray.at(hit->t) + n * (1e-4f * hit->t);
     float r = std::sqrt(random(i, 2)), phi = 2 * kPi * random(i, 3);
     vec3 local(r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - r * r));
-    sets.diffuse.push_back({p, 0, Frame::from_normal(n).to_world(local), kInfinity});
+    sets.diffuse.push_back({p, 0, Basis::from_normal(n).to_world(local), kInfinity});
     vec3 light = scene.view.light + scene.view.light_size * vec3(random(i, 4) - 0.5f, 0, random(i, 5) - 0.5f);
     sets.shadow.push_back({p, 0, light - p, 0.999f});
   }
@@ -208,13 +209,52 @@ double least_seconds(int repeats, const std::function<void()>& f) {
   return best;
 }
 
-/// Traces all rays; how many hit.
-template <class Trace>
-std::size_t count_hits(const std::vector<Ray>& rays, int threads, Trace trace) {
+/// The least time of each chunk of rays over all rounds, and what the whole hit.
+struct Measured {
+  std::vector<double> chunk_seconds;
   std::size_t hits = 0;
-#pragma omp parallel for schedule(dynamic, 2048) num_threads(threads) reduction(+ : hits)
-  for (std::size_t i = 0; i < rays.size(); ++i) hits += trace(rays[i]);
-  return hits;
+};
+
+/// Traces the rays once with each of `tracers` (functions from Ray to bool) in turn, again and again, and
+/// keeps for every 2048 rays the least time: on a shared machine the least time of short pieces is what would
+/// be measured undisturbed, and the turns make whatever is left meet all alike. Gives the rays per second of
+/// each.
+template <class... Tracers>
+std::vector<std::pair<double, std::size_t>> measure(const std::vector<Ray>& rays, int threads, int rounds,
+                                                    const Tracers&... tracers) {
+  constexpr std::size_t kChunk = 2048;
+  std::size_t chunks = (rays.size() + kChunk - 1) / kChunk;
+  std::vector<Measured> measured(sizeof...(Tracers));
+  for (Measured& m : measured) m.chunk_seconds.assign(chunks, 1e30);
+#pragma omp parallel num_threads(threads)
+  for (int round = 0; round < rounds; ++round) {
+    std::size_t which = 0;
+    auto trace_all = [&](const auto& tracer) {
+      Measured& m = measured[which++];
+      std::size_t hits = 0;
+#pragma omp barrier
+      for (auto c = static_cast<std::size_t>(omp_get_thread_num()); c < chunks;
+           c += static_cast<std::size_t>(threads)) {
+        double s = least_seconds(1, [&] {
+          for (std::size_t i = c * kChunk; i < std::min((c + 1) * kChunk, rays.size()); ++i)
+            hits += tracer(rays[i]);
+        });
+        m.chunk_seconds[c] = std::min(m.chunk_seconds[c], s);
+      }
+      if (round == 0) {
+#pragma omp atomic
+        m.hits += hits;
+      }
+    };
+    (trace_all(tracers), ...);
+  }
+  std::vector<std::pair<double, std::size_t>> result;
+  for (const Measured& m : measured) {
+    double seconds = 0;
+    for (double s : m.chunk_seconds) seconds += s / threads;
+    result.emplace_back(static_cast<double>(rays.size()) / seconds, m.hits);
+  }
+  return result;
 }
 
 #ifdef CANDELA_BENCH_EMBREE
@@ -316,7 +356,7 @@ void report_rays(const BenchScene& scene, const Options& options) {
              scene.name, stats.triangles, stats.nodes, stats.leaves,
              static_cast<double>(stats.triangles) / static_cast<double>(stats.leaves), stats.depth,
              stats.sah_cost, static_cast<double>(stats.bytes) / static_cast<double>(stats.triangles));
-  RaySets sets = make_rays(scene, accel, options.quick ? 128 : 512);
+  RaySets sets = make_rays(scene, accel, options.quick ? 128 : 384);
 #ifdef CANDELA_BENCH_EMBREE
   EmbreeScene medium(scene.mesh, RTC_BUILD_QUALITY_MEDIUM, options.threads);
   EmbreeScene high(scene.mesh, RTC_BUILD_QUALITY_HIGH, options.threads);
@@ -329,34 +369,24 @@ void report_rays(const BenchScene& scene, const Options& options) {
   for (Set set : {Set{"primary", sets.primary, false}, Set{"diffuse", sets.diffuse, false},
                   Set{"shadow", sets.shadow, true}})
     for (int threads = 1; threads <= options.threads; threads *= 2) {
-      auto rate = [&](double seconds) { return static_cast<double>(set.rays.size()) * 1e-6 / seconds; };
-      std::array<double, 3> best{1e30, 1e30, 1e30};
-      std::array<std::size_t, 3> hits{};
-      // Interleaved, so that a drift of the machine meets all alike.
-      for (int round = 0; round < (options.quick ? 2 : 15); ++round) {
-        auto measure = [&](std::size_t which, const auto& tracer) {
-          best[which] = std::min(
-              best[which], least_seconds(1, [&] {
-                hits[which] =
-                    set.any ? count_hits(set.rays, threads, [&](const Ray& r) { return tracer.occluded(r); })
-                            : count_hits(set.rays, threads,
-                                         [&](const Ray& r) { return bool(tracer.intersect(r)); });
-              }));
-        };
-        measure(0, accel);
+      auto tracer = [&](const auto& of) {
+        return
+            [&of, any = set.any](const Ray& ray) { return any ? of.occluded(ray) : bool(of.intersect(ray)); };
+      };
+      auto result = measure(set.rays, threads, options.quick ? 2 : 15, tracer(accel)
 #ifdef CANDELA_BENCH_EMBREE
-        measure(1, medium);
-        measure(2, high);
+                                                                           ,
+                            tracer(medium), tracer(high)
 #endif
-      }
+      );
+      auto [ours, hits] = result[0];
       std::string line =
-          fmt::format("{:8} {:8} {}T  Mrays/s: ours {:6.2f}", scene.name, set.name, threads, rate(best[0]));
-#ifdef CANDELA_BENCH_EMBREE
-      line += fmt::format(" | Embree medium {:6.2f} high {:6.2f} | ratio {:.2f} {:.2f} | hits {} {:+d} {:+d}",
-                          rate(best[1]), rate(best[2]), best[1] / best[0], best[2] / best[0], hits[0],
-                          static_cast<std::ptrdiff_t>(hits[1] - hits[0]),
-                          static_cast<std::ptrdiff_t>(hits[2] - hits[0]));
-#endif
+          fmt::format("{:8} {:8} {}T  Mrays/s: ours {:6.2f}", scene.name, set.name, threads, ours * 1e-6);
+      for (std::size_t i = 1; i < result.size(); ++i) {
+        auto [theirs, their_hits] = result[i];
+        line += fmt::format(" | Embree {} {:6.2f} ratio {:.2f} hits {:+d}", i == 1 ? "medium" : "high",
+                            theirs * 1e-6, ours / theirs, static_cast<std::ptrdiff_t>(their_hits - hits));
+      }
       fmt::print("{}\n", line);
       std::fflush(stdout);
     }
@@ -370,12 +400,15 @@ int main(int argc, char** argv) {
     std::string_view arg = argv[i];
     if (arg == "--short")
       options.quick = true;
+    else if (arg == "--rays-only")
+      options.rays_only = true;
     else if (arg == "--scene" && i + 1 < argc)
       options.scene = argv[++i];
     else if (arg == "--threads" && i + 1 < argc)
       options.threads = std::max(1, std::atoi(argv[++i]));
     else {
-      fmt::print(stderr, "usage: {} [--short] [--scene cornell|bunny|sphere] [--threads N]\n", argv[0]);
+      fmt::print(stderr, "usage: {} [--short] [--scene cornell|bunny|sphere] [--threads N] [--rays-only]\n",
+                 argv[0]);
       return 2;
     }
   }
@@ -394,7 +427,7 @@ int main(int argc, char** argv) {
   }
   if (wanted("sphere")) scenes.push_back(displaced_sphere(options.quick ? 64 : 572));
   for (const BenchScene& scene : scenes) {
-    if (scene.mesh.triangles.size() > 1000)
+    if (!options.rays_only && scene.mesh.triangles.size() > 1000)
       for (int threads = 1; threads <= options.threads; threads *= 2) report_build(scene, threads, options);
     report_rays(scene, options);
   }
