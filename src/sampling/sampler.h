@@ -60,21 +60,22 @@ constexpr std::uint32_t sobol_second_reversed(std::uint32_t index) {
 
 /// Position of `index` in a pseudo-random permutation of 0..length-1 that `key` chooses; index < length.
 /// Cycle walking over an invertible hash of the next power of two (Kensler 2013, "Correlated Multi-Jittered
-/// Sampling", section 3, has the idea).
+/// Sampling", section 3). x (2 x + odd) is invertible modulo 2^k, as in the cipher RC6; six rounds and shifts
+/// that vary make the orders of even four elements equally likely.
 constexpr std::uint32_t permute(std::uint32_t index, std::uint32_t length, std::uint64_t key) {
   if (length <= 1) return 0;
-  int bits = std::bit_width(length - 1);
-  int shift = (bits + 1) / 2; // xor-shifts by this move high bits down, multiplications move low bits up
+  auto bits = static_cast<std::uint32_t>(std::bit_width(length - 1));
   std::uint32_t mask = bits == 32 ? ~0u : (1u << bits) - 1;
   do {
-    std::uint64_t round_key = key;
-    for (int round = 0; round < 4; ++round) {
-      index = (index + static_cast<std::uint32_t>(round_key >> 32)) & mask;
-      index = (index * (static_cast<std::uint32_t>(round_key) | 1)) & mask;
-      index ^= index >> shift;
-      round_key = round_key * 0xd1342543de82ef95ull + 0x9e3779b97f4a7c15ull;
+    std::uint64_t k = key;
+    for (int round = 0; round < 6; ++round) {
+      k = k * 0xd1342543de82ef95ull + 0x9e3779b97f4a7c15ull;
+      index += static_cast<std::uint32_t>(k >> 32);
+      index = (index * (2 * index + (static_cast<std::uint32_t>(k >> 20) | 1))) & mask;
+      std::uint32_t shift = 1 + ((static_cast<std::uint32_t>(k >> 16) & 0xffff) * bits >> 16); // 1..bits
+      index ^= static_cast<std::uint32_t>(static_cast<std::uint64_t>(index) >> shift);
     }
-    index = (index + static_cast<std::uint32_t>(round_key >> 32)) & mask;
+    index = (index + static_cast<std::uint32_t>(k >> 40)) & mask;
   } while (index >= length);
   return index;
 }

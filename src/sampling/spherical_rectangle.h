@@ -44,7 +44,10 @@ public:
 private:
   vec3 corner_, axis_x_, axis_y_; ///< axes are unit
   double x0_, y0_, x1_, y1_, z2_, z_;
-  double b0_, b1_, sin_c0_, cos_c0_;
+  double b0_ = 0, b1_ = 0;
+  double q_ = 0; ///< sqrt((1 - b0^2) (1 - b1^2))
+  double sin_c0_ = 0, cos_c0_ = 1;
+  double exact_solid_angle_ = 0;
 };
 
 inline SphericalRectangle::SphericalRectangle(vec3 corner, vec3 edge_x, vec3 edge_y, vec3 origin)
@@ -64,7 +67,7 @@ inline SphericalRectangle::SphericalRectangle(vec3 corner, vec3 edge_x, vec3 edg
   double r00 = std::sqrt(x0x0 + y0y0 + z2_), r10 = std::sqrt(x1x1 + y0y0 + z2_);
   double r01 = std::sqrt(x0x0 + y1y1 + z2_), r11 = std::sqrt(x1x1 + y1y1 + z2_);
   double near_y0 = std::sqrt(y0y0 + z2_), near_y1 = std::sqrt(y1y1 + z2_), near_x0 = std::sqrt(x0x0 + z2_);
-  if (!(z_ > 0) || !(near_x0 > 0)) return;
+  if (!(z_ > 0)) return; // in the rectangle's plane, or no rectangle at all
 
   // Van Oosterom & Strackee's tan(area / 2) = n / d of the two triangles on either side of the diagonal
   // 00-11. Their triple products are equal, and known without cancellation.
@@ -75,10 +78,12 @@ inline SphericalRectangle::SphericalRectangle(vec3 corner, vec3 edge_x, vec3 edg
   double d1 = r00 * r10 * r11 + dot_00_10 * r11 + dot_10_11 * r00 + dot_00_11 * r10;
   double d2 = r00 * r01 * r11 + dot_00_01 * r11 + dot_01_11 * r00 + dot_00_11 * r01;
   // The sum of the two angles, each in [0, pi], of half the whole in [0, pi].
-  solid_angle = static_cast<float>(2 * std::atan2(n * (d1 + d2), d1 * d2 - n * n));
+  exact_solid_angle_ = 2 * std::atan2(n * (d1 + d2), d1 * d2 - n * n);
+  solid_angle = static_cast<float>(exact_solid_angle_);
 
   b0_ = y0_ / near_y0;
   b1_ = y1_ / near_y1;
+  q_ = z2_ / (near_y0 * near_y1);
   // c0 = asin(b1 s0) - asin(b0 s0); the cosine of asin(b_j s0) is z r_0j / (sqrt(x0^2 + z^2) sqrt(y_j^2 +
   // z^2)).
   double s0 = x0_ / near_x0;
@@ -89,13 +94,15 @@ inline SphericalRectangle::SphericalRectangle(vec3 corner, vec3 edge_x, vec3 edg
 }
 
 inline vec3 SphericalRectangle::sample(vec2 u) const {
-  double angle = static_cast<double>(u.x) * static_cast<double>(solid_angle);
+  double angle = static_cast<double>(u.x) * exact_solid_angle_;
   double sin_angle = std::sin(angle), cos_angle = std::cos(angle);
   double sin_c = sin_c0_ * cos_angle + cos_c0_ * sin_angle;
   double cos_c = cos_c0_ * cos_angle - sin_c0_ * sin_angle;
-  // x = z s / sqrt(1 - s^2).
-  double one_minus_s2 = b0_ * b0_ + b1_ * b1_ - 2 * b0_ * b1_ * cos_c - sin_c * sin_c;
-  double x = one_minus_s2 > 0 ? z_ * sin_c / std::sqrt(one_minus_s2) : (sin_c > 0 ? x1_ : x0_);
+  // x = z s / sqrt(1 - s^2) = z sin c / sqrt(b0^2 + b1^2 - 2 b0 b1 cos c - sin^2 c), whose radicand is this
+  // difference of squares; so written, it has digits even where the origin all but touches the rectangle.
+  double a = cos_c - b0_ * b1_;
+  double radicand = (a - q_) * (a + q_);
+  double x = radicand > 0 ? z_ * sin_c / std::sqrt(radicand) : (sin_c > 0 ? x1_ : x0_);
   x = std::clamp(x, x0_, x1_);
 
   double d2 = x * x + z2_;
