@@ -182,6 +182,7 @@ Accel Accel::build(const AccelInput& input, BuildQuality quality) {
   const BinaryNode& root = binary.nodes[0];
   tree->root = wide.root;
   tree->bounds = {{root.lo[0], root.lo[1], root.lo[2]}, {root.hi[0], root.hi[1], root.hi[2]}};
+  for (int a = 0; a < 3; ++a) tree->lower[a] = tree->bounds.lo[a], tree->upper[a] = tree->bounds.hi[a];
   tree->nodes = std::move(wide.nodes);
   tree->triangles.resize(wide.packs[static_cast<std::size_t>(LeafKind::triangles)]);
   tree->spheres.resize(wide.packs[static_cast<std::size_t>(LeafKind::spheres)]);

@@ -7,11 +7,9 @@ namespace candela::accel_detail {
 
 namespace {
 
-/// Four floats, of which three are used: makes growing a box two instructions.
-using Vec4 = float __attribute__((vector_size(16)));
-
-inline Vec4 min4(Vec4 a, Vec4 b) { return a < b ? a : b; }
-inline Vec4 max4(Vec4 a, Vec4 b) { return a > b ? a : b; }
+using simd::max4;
+using simd::min4;
+using simd::Vec4;
 
 struct Box4 {
   Vec4 lo{kInfinity, kInfinity, kInfinity, kInfinity};

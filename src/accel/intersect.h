@@ -39,7 +39,7 @@ struct ShearedRay {
     float size_x = std::abs(d[0]), size_y = std::abs(d[1]), size_z = std::abs(d[2]);
     std::size_t y_largest = size_y > size_x, z_largest = size_z > std::max(size_x, size_y);
     kz = std::max(y_largest, 2 * z_largest);
-    constexpr std::array<std::uint8_t, 3> kNext{1, 2, 0};
+    static constexpr std::array<std::uint8_t, 3> kNext{1, 2, 0};
     kx = kNext[kz], ky = kNext[kx];
     float inverse_z = 1 / d[kz];
     origin_x = F(o[kx]), origin_y = F(o[ky]), origin_z = F(o[kz]);
@@ -48,27 +48,62 @@ struct ShearedRay {
   }
 };
 
+/// The vertices of eight triangles in the ray's sheared space.
+template <class F>
+struct ShearedTriangles {
+  std::array<F, 3> x, y, z;
+
+  [[gnu::always_inline]] ShearedTriangles(const TrianglePack& pack, const ShearedRay<F>& ray) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      z[k] = F::load(pack.vertex[k][ray.kz].data()) - ray.origin_z;
+      x[k] = (F::load(pack.vertex[k][ray.kx].data()) - ray.origin_x) - ray.shear_x * z[k];
+      y[k] = (F::load(pack.vertex[k][ray.ky].data()) - ray.origin_y) - ray.shear_y * z[k];
+    }
+  }
+};
+
+/// Twice the signed areas between the origin and the edges opposite to vertices 0, 1 and 2.
+template <class F>
+struct EdgeFunctions {
+  F u, v, w;
+
+  [[gnu::always_inline]] explicit EdgeFunctions(const ShearedTriangles<F>& p)
+      : u(p.x[2] * p.y[1] - p.y[2] * p.x[1]), v(p.x[0] * p.y[2] - p.y[0] * p.x[2]),
+        w(p.x[1] * p.y[0] - p.y[1] * p.x[0]) {}
+};
+
+struct ResolvedEdges {
+  simd::LaneMask lanes;
+  alignas(32) std::array<float, kWidth> u, v, w;
+};
+
 /// The edge functions again in double precision, for the lanes where one of them is 0 in single precision:
 /// the product of two floats is exact in double, so the sign is that of the exact value and 0 means on the
-/// edge. Gives the lanes that stay hit.
+/// edge. Gives the lanes that stay hit. Out of line and from scratch, or the common case would store its
+/// vertices.
 template <class F>
-[[gnu::noinline]] simd::LaneMask resolve_edges(simd::LaneMask lanes, const std::array<F, 3>& x,
-                                               const std::array<F, 3>& y, F& u, F& v, F& w) {
-  alignas(32) float xs[3][kWidth], ys[3][kWidth], us[kWidth], vs[kWidth], ws[kWidth];
-  for (std::size_t k = 0; k < 3; ++k) x[k].store(xs[k]), y[k].store(ys[k]);
-  u.store(us), v.store(vs), w.store(ws);
-  simd::LaneMask hit = 0;
+[[gnu::noinline, gnu::cold]] ResolvedEdges resolve_edges(const TrianglePack& pack, const ShearedRay<F>& ray,
+                                                         simd::LaneMask lanes) {
+  ShearedTriangles<F> p(pack, ray);
+  EdgeFunctions<F> e(p);
+  alignas(32) float x[3][kWidth], y[3][kWidth];
+  for (std::size_t k = 0; k < 3; ++k) p.x[k].store(x[k]), p.y[k].store(y[k]);
+  ResolvedEdges result;
+  result.lanes = 0;
+  e.u.store(result.u.data()), e.v.store(result.v.data()), e.w.store(result.w.data());
   simd::for_each_lane(lanes, [&](int i) {
     auto edge = [&](int a, int b) {
-      return static_cast<double>(xs[a][i]) * ys[b][i] - static_cast<double>(ys[a][i]) * xs[b][i];
+      return static_cast<double>(x[a][i]) * y[b][i] - static_cast<double>(y[a][i]) * x[b][i];
     };
-    double du = edge(2, 1), dv = edge(0, 2), dw = edge(1, 0);
-    if ((du < 0 || dv < 0 || dw < 0) && (du > 0 || dv > 0 || dw > 0)) return;
-    us[i] = static_cast<float>(du), vs[i] = static_cast<float>(dv), ws[i] = static_cast<float>(dw);
-    hit |= 1u << i;
+    double u = edge(2, 1), v = edge(0, 2), w = edge(1, 0);
+    if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return;
+    auto lane = static_cast<std::size_t>(i);
+    result.u[lane] = static_cast<float>(u);
+    result.v[lane] = static_cast<float>(v);
+    result.w[lane] = static_cast<float>(w);
+    result.lanes |= 1u << i;
   });
-  u = F::load(us), v = F::load(vs), w = F::load(ws);
-  return hit;
+  return result;
 }
 
 /// Whether a triangle is hit with t in (t_min, t_max). For the closest hit, sets hit and lowers t_max to its
@@ -76,29 +111,25 @@ template <class F>
 template <class F, bool any_hit>
 [[gnu::always_inline]] inline bool meet_triangles(const TrianglePack& pack, const ShearedRay<F>& ray,
                                                   float t_min, float& t_max, Hit& hit) {
-  std::array<F, 3> x, y, z;
-  for (std::size_t k = 0; k < 3; ++k) {
-    z[k] = F::load(pack.vertex[k][ray.kz].data()) - ray.origin_z;
-    x[k] = (F::load(pack.vertex[k][ray.kx].data()) - ray.origin_x) - ray.shear_x * z[k];
-    y[k] = (F::load(pack.vertex[k][ray.ky].data()) - ray.origin_y) - ray.shear_y * z[k];
-  }
-  F u = x[2] * y[1] - y[2] * x[1];
-  F v = x[0] * y[2] - y[0] * x[2];
-  F w = x[1] * y[0] - y[1] * x[0];
+  const ShearedTriangles<F> p(pack, ray);
+  EdgeFunctions<F> e(p);
 
   // Inside if no two signs differ. Rounding is monotonic, so the sign of a difference of two rounded products
   // is right unless it is 0; and a 0 can matter only where the other two signs agree, that is, where it is
   // the least or the greatest of the three.
-  F zero(0.0f), least = min(u, min(v, w)), greatest = max(u, max(v, w));
+  F zero(0.0f), least = min(e.u, min(e.v, e.w)), greatest = max(e.u, max(e.v, e.w));
   simd::LaneMask lanes = less_equal(zero, least) | less_equal(greatest, zero);
   if (!lanes) return false;
-  if (simd::LaneMask on_edge = lanes & (equal(least, zero) | equal(greatest, zero))) [[unlikely]]
-    lanes = (lanes & ~on_edge) | resolve_edges(on_edge, x, y, u, v, w);
+  if (simd::LaneMask on_edge = lanes & (equal(least, zero) | equal(greatest, zero))) [[unlikely]] {
+    ResolvedEdges resolved = resolve_edges(pack, ray, on_edge);
+    lanes = (lanes & ~on_edge) | resolved.lanes;
+    e.u = F::load(resolved.u.data()), e.v = F::load(resolved.v.data()), e.w = F::load(resolved.w.data());
+  }
 
   // t = (u z0 + v z1 + w z2) / (u + v + w); an edge-on triangle has determinant 0, so t is NaN or infinite
   // and fails the range test.
-  F determinant = u + v + w;
-  F t = (u * z[0] + v * z[1] + w * z[2]) * ray.scale_z / determinant;
+  F determinant = e.u + e.v + e.w;
+  F t = (e.u * p.z[0] + e.v * p.z[1] + e.w * p.z[2]) * ray.scale_z / determinant;
   lanes &= less(F(t_min), t) & less(t, F(t_max));
   if (!lanes) return false;
   if constexpr (any_hit) return true;
@@ -112,7 +143,7 @@ template <class F, bool any_hit>
     t_max = ts[static_cast<std::size_t>(lane)];
   }
   alignas(32) std::array<float, kWidth> vs, ws, determinants;
-  v.store(vs.data()), w.store(ws.data()), determinant.store(determinants.data());
+  e.v.store(vs.data()), e.w.store(ws.data()), determinant.store(determinants.data());
   auto i = static_cast<std::size_t>(lane);
   float inverse = 1 / determinants[i];
   hit = {t_max, vs[i] * inverse, ws[i] * inverse, pack.primitive[i], kNoInstance, PrimitiveKind::triangle};

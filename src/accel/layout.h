@@ -74,7 +74,8 @@ inline constexpr int kMaxDepth = 62;
 inline constexpr int kStackSize = (kWidth - 1) * kMaxDepth + kWidth;
 
 struct AccelTree {
-  ChildRef root;
+  simd::Vec4 lower{}, upper{}; ///< of the bounds, with a lane to spare
+  ChildRef root{};
   Bounds3 bounds;
   std::vector<WideNode> nodes;
   std::vector<TrianglePack> triangles;

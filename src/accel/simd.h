@@ -11,6 +11,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #if defined(__SSE2__)
 #if defined(__GNUC__) && !defined(__clang__)
@@ -37,6 +38,20 @@ inline void for_each_lane(LaneMask lanes, Function&& f) {
   for (; lanes; lanes &= lanes - 1) f(std::countr_zero(lanes));
 }
 
+/// Four floats, mostly for x, y, z and a lane that nobody reads.
+using Vec4 = float __attribute__((vector_size(16)));
+using IntVec4 = std::int32_t __attribute__((vector_size(16)));
+
+/// b if either is NaN.
+inline Vec4 min4(Vec4 a, Vec4 b) { return a < b ? a : b; }
+inline Vec4 max4(Vec4 a, Vec4 b) { return a > b ? a : b; }
+inline Vec4 abs4(Vec4 a) { return reinterpret_cast<Vec4>(reinterpret_cast<IntVec4>(a) & 0x7fffffff); }
+/// For magnitudes that are not negative.
+inline Vec4 copysign4(Vec4 magnitude, Vec4 sign) {
+  return reinterpret_cast<Vec4>(reinterpret_cast<IntVec4>(magnitude) |
+                                (reinterpret_cast<IntVec4>(sign) & std::numeric_limits<std::int32_t>::min()));
+}
+
 /// Something with a key to sort by. The key comes second, so that on this little-endian machine the whole is
 /// an integer of 64 bits that sorts by key (if that is not negative), then by value.
 template <class Value>
@@ -48,8 +63,8 @@ struct Keyed {
 
 /// Two halves of four rather than one vector of eight, whose calling convention depends on compiler flags.
 struct PortableFloat8 {
-  using Half = float __attribute__((vector_size(16)));
-  using HalfInt = std::int32_t __attribute__((vector_size(16)));
+  using Half = Vec4;
+  using HalfInt = IntVec4;
   Half lo, hi;
 
   PortableFloat8() = default;

@@ -20,17 +20,22 @@ struct BoxRay {
   std::array<std::size_t, 3>
       near_side; ///< index into WideNode::box[axis]: 1 where the ray points down the axis
 
-  BoxRay(const Ray& ray, const Bounds3& bounds) {
-    vec3 reach = glm::max(glm::abs(bounds.lo - ray.origin), glm::abs(bounds.hi - ray.origin));
-    float pad = max_component(reach) * 0x1p-21f;
-    for (std::size_t i = 0; i < 3; ++i) {
-      int axis = static_cast<int>(i);
-      float o = ray.origin[axis], inverse = 1 / ray.direction[axis];
-      bool down = std::signbit(ray.direction[axis]);
-      float shift = std::copysign(pad + std::abs(o) * 0x1p-22f, inverse);
-      near_side[i] = down;
-      origin_near[i] = F(o + shift), origin_far[i] = F(o - shift);
-      inverse_near[i] = F(inverse * (1 - gamma_bound(5))), inverse_far[i] = F(inverse * (1 + gamma_bound(5)));
+  BoxRay(const Ray& ray, const AccelTree& tree) {
+    // Three axes at a time: scalar code for this took a quarter of the time of a ray in the Cornell box.
+    using simd::Vec4;
+    Vec4 o{ray.origin.x, ray.origin.y, ray.origin.z, 0},
+        d{ray.direction.x, ray.direction.y, ray.direction.z, 1};
+    Vec4 reach = simd::max4(simd::abs4(tree.lower - o), simd::abs4(tree.upper - o));
+    float pad = std::max(std::max(reach[0], reach[1]), reach[2]) * 0x1p-21f;
+    Vec4 shift = simd::copysign4(pad + simd::abs4(o) * 0x1p-22f, d);
+    Vec4 inverse = 1 / d;
+    Vec4 o_near = o + shift, o_far = o - shift;
+    Vec4 i_near = inverse * (1 - gamma_bound(5)), i_far = inverse * (1 + gamma_bound(5));
+    for (int axis = 0; axis < 3; ++axis) {
+      auto i = static_cast<std::size_t>(axis);
+      near_side[i] = std::signbit(ray.direction[axis]);
+      origin_near[i] = F(o_near[axis]), origin_far[i] = F(o_far[axis]);
+      inverse_near[i] = F(i_near[axis]), inverse_far[i] = F(i_far[axis]);
     }
   }
 
@@ -115,7 +120,7 @@ bool trace(const AccelTree& tree, const Ray& ray, Hit& hit) {
   // NaN would meet every box and walk the whole tree.
   vec3 sum = ray.origin + ray.direction;
   if (!std::isfinite(sum.x + sum.y + sum.z)) return false;
-  const BoxRay<F> box_ray(ray, tree.bounds);
+  const BoxRay<F> box_ray(ray, tree);
   const F t_min8(t_min);
   const WideNode* nodes = tree.nodes.data();
   std::array<Waiting, kStackSize> stack;
