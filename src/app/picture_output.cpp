@@ -1,6 +1,7 @@
 #include "app/picture_output.h"
 
 #include "io/image_file.h"
+#include "render/frame.h"
 #include "render/tone_map.h"
 
 namespace candela {
@@ -13,7 +14,7 @@ void write_picture(const Image& image, const std::string& path, const DisplaySet
     return;
   }
   std::vector<std::uint8_t> rgb(3 * image.pixels.size());
-  tone_map_rgb(image.pixels, display, display_scale, rgb);
+  tone_map_rgb8(image.pixels, scaled_display(display, display_scale), rgb);
   write_srgb8_image(image.width, image.height, rgb, path);
 }
 

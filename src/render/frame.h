@@ -48,4 +48,10 @@ struct Frame {
   NonFiniteLog nonfinite;
 };
 
+/// The display settings under which a frame of that display_scale is tone-mapped.
+inline DisplaySettings scaled_display(DisplaySettings display, float display_scale) {
+  display.exposure += std::log2(display_scale);
+  return display;
+}
+
 } // namespace candela

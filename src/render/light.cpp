@@ -21,6 +21,13 @@ bool faces(const LightReference& ref, vec3 corner, vec3 normal, bool two_sided) 
   return two_sided || glm::dot(ref.position - corner, normal) > 0;
 }
 
+/// Of a point of a flat light: its own error, and the rounding of its surface's intersection test as in
+/// Geometry::surface.
+vec3 flat_point_error(vec3 corner, vec3 edge1, vec3 edge2) {
+  return gamma_bound(6) * (glm::abs(corner) + glm::abs(edge1) + glm::abs(edge2)) +
+         gamma_bound(8) * max_component(glm::max(glm::abs(edge1), glm::abs(edge2)));
+}
+
 LightSample towards(const LightReference& ref, vec3 point, vec3 point_error, vec3 normal, vec3 radiance,
                     float pdf) {
   LightSample s;
@@ -41,8 +48,7 @@ std::optional<LightSample> TriangleLight::sample(const LightReference& ref, vec2
   vec3 p = corner + b.y * edge1 + b.z * edge2;
   float density = solid_angle_density(ref, p, normal, area, two_sided);
   if (!(density > 0)) return std::nullopt;
-  vec3 error = gamma_bound(6) * (glm::abs(corner) + glm::abs(edge1) + glm::abs(edge2));
-  return towards(ref, p, error, normal, emission, density);
+  return towards(ref, p, flat_point_error(corner, edge1, edge2), normal, emission, density);
 }
 
 float TriangleLight::pdf(const LightReference& ref, vec3 point, vec3) const {
@@ -51,7 +57,7 @@ float TriangleLight::pdf(const LightReference& ref, vec3 point, vec3) const {
 
 std::optional<LightSample> RectangleLight::sample(const LightReference& ref, vec2 u) const {
   if (!faces(ref, corner, normal, two_sided)) return std::nullopt;
-  vec3 error = gamma_bound(6) * (glm::abs(corner) + glm::abs(edge_x) + glm::abs(edge_y));
+  vec3 error = flat_point_error(corner, edge_x, edge_y);
   SphericalRectangle seen(corner, edge_x, edge_y, ref.position);
   if (seen.solid_angle >= SphericalRectangle::kMinSolidAngle)
     return towards(ref, seen.sample(u), error, normal, emission, 1 / seen.solid_angle);

@@ -20,12 +20,13 @@ Ray spawn_ray(const Surface& s, vec3 w) {
 float visibility(const RenderScene& scene, const Surface& from, const LightSample& light, RayCounts& counts) {
   const Accel& accel = scene.geometry().accel();
   Ray ray = spawn_ray(from, light.direction);
+  vec3 target(0);
   if (!light.infinite) {
-    // Both ends are moved off their surfaces by their error bounds, so the whole of what is left must be
-    // free.
-    vec3 target = offset_ray_origin(light.point, light.point_error, light.point_normal, -light.direction);
+    // Both ends are moved off their surfaces by their error bounds, so what is left must be free but for what
+    // the distance adds to the rounding of t.
+    target = offset_ray_origin(light.point, light.point_error, light.point_normal, -light.direction);
     ray.direction = target - ray.origin;
-    ray.t_max = 1;
+    ray.t_max = 1 - gamma_bound(16);
   }
   if (!scene.has_transparency()) {
     ++counts.shadow;
@@ -39,9 +40,8 @@ float visibility(const RenderScene& scene, const Surface& from, const LightSampl
     through *= 1 - scene.material(scene.geometry().material_of(*hit)).opacity;
     if (through <= 0) return 0;
     Surface s = scene.geometry().surface(ray, *hit);
-    vec3 end = ray.at(1);
     ray.origin = offset_ray_origin(s.position, s.position_error, s.geometric_normal, ray.direction);
-    if (!light.infinite) ray.direction = end - ray.origin;
+    if (!light.infinite) ray.direction = target - ray.origin;
   }
   return 0;
 }

@@ -285,7 +285,7 @@ void RenderSession::State::present_loop() {
     made->width = source->width;
     made->height = source->height;
     made->rgba.resize(4 * source->linear.size());
-    tone_map_rgba(source->linear, display, source->display_scale, made->rgba);
+    tone_map_rgba8(source->linear, scaled_display(display, source->display_scale), made->rgba);
     {
       std::lock_guard lock(mutex);
       picture = std::move(made);

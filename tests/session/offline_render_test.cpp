@@ -1,0 +1,68 @@
+// The headless render: when it stops, and that portions do not show in the result.
+
+#include "core/error.h"
+#include "session/offline_render.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace candela {
+namespace {
+
+TEST(OfflineRender, StopsAtTheSampleCount) {
+  Document d = test::cornell_flush(33, 17, 5, false).document;
+  OfflineResult r = render_document(d);
+  EXPECT_EQ(r.spp, 5);
+  EXPECT_EQ(r.rays.samples, 5u * 33u * 17u);
+  EXPECT_EQ(r.film.count(32, 16), 5);
+  EXPECT_FALSE(r.interrupted);
+}
+
+TEST(OfflineRender, StopsAtTheTime) {
+  Document d = test::cornell_flush(33, 17, 0, false).document;
+  d.settings.stop.time = 0.05f;
+  OfflineResult r = render_document(d);
+  EXPECT_GE(r.spp, 1);
+  EXPECT_GE(r.render_seconds, 0.05);
+}
+
+TEST(OfflineRender, RefusesToRunForEver) {
+  Document d = test::cornell_flush(8, 8, 0, false).document;
+  try {
+    render_document(d);
+    FAIL() << "it has nothing to stop at";
+  } catch (const Error& e) { EXPECT_EQ(e.code(), ExitCode::usage); }
+}
+
+TEST(OfflineRender, KeepsWholeSamplesWhenInterrupted) {
+  Document d = test::cornell_flush(64, 64, 1000, true).document;
+  std::atomic<bool> stop{false};
+  OfflineOptions options;
+  options.stop = &stop;
+  options.progress = [&](const OfflineProgress& p) { stop = p.spp >= 3; };
+  OfflineResult r = render_document(d, options);
+  EXPECT_TRUE(r.interrupted);
+  EXPECT_GE(r.spp, 3);
+  d.settings.stop.spp = r.spp;
+  Film expected = render_document(d).film;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      ASSERT_GE(r.film.count(x, y), r.spp);
+      if (r.film.count(x, y) == r.spp) { EXPECT_EQ(r.film.mean(x, y), expected.mean(x, y)); }
+    }
+}
+
+TEST(OfflineRender, CropRendersNothingElse) {
+  Document d = test::cornell_flush(64, 48, 2, true).document;
+  OfflineOptions options;
+  options.pass.crop = {10, 20, 17, 9};
+  OfflineResult r = render_document(d, options);
+  EXPECT_EQ(r.rays.samples, 2u * 17u * 9u);
+  Film whole = render_document(d).film;
+  for (int y = 20; y < 29; ++y)
+    for (int x = 10; x < 27; ++x) EXPECT_EQ(r.film.mean(x, y), whole.mean(x, y));
+  EXPECT_EQ(r.film.count(9, 20), 0);
+}
+
+} // namespace
+} // namespace candela

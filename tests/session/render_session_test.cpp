@@ -1,0 +1,182 @@
+// The interactive engine: what restarts, what does not, and that its picture is the headless one. Waits are
+// for events, with limits only against hanging for ever.
+
+#include "session/offline_render.h"
+#include "session/render_session.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace candela {
+namespace {
+
+constexpr double kPatience = 120; // seconds before a wait counts as hanging
+
+Document small_cornell(int spp = 4, int width = 61, int height = 43) {
+  Document d = test::cornell_flush(width, height, spp, true).document;
+  return d;
+}
+
+std::vector<vec3> headless(const Document& document) { return render_document(document).film.image().pixels; }
+
+TEST(RenderSession, PictureIsTheHeadlessRenderBitForBit) {
+  for (int threads : {1, 2, 3}) {
+    SessionOptions options;
+    options.threads = threads;
+    RenderSession session(options);
+    Document d = small_cornell();
+    std::uint64_t generation = session.submit(d);
+    ASSERT_TRUE(session.wait_finished(kPatience));
+    auto frame = session.latest();
+    EXPECT_EQ(frame->generation, generation);
+    EXPECT_EQ(frame->spp, 4);
+    EXPECT_EQ(frame->coarseness, 1);
+    EXPECT_TRUE(frame->linear == headless(d)) << threads << " threads";
+  }
+}
+
+// Each edit comes while the one before is far from its first full pass, and is shown all the same: coarse,
+// and whole.
+TEST(RenderSession, DraggingShowsACoarseImageOfEveryEdit) {
+  RenderSession session;
+  Document d = small_cornell(0, 400, 300);
+  d.settings.path.light_samples = 64; // a full pass takes long
+  bool coarsest_seen = false;
+  for (int i = 0; i < 5; ++i) {
+    d.scene.camera.position.x = 278.0f + static_cast<float>(i);
+    std::uint64_t generation = session.submit(d);
+    std::shared_ptr<const DisplayImage> picture;
+    auto give_up = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPatience);
+    while (!(picture = session.display()) || picture->frame->generation != generation) {
+      ASSERT_LT(std::chrono::steady_clock::now(), give_up) << "edit " << i << " was never shown";
+      std::this_thread::yield();
+    }
+    EXPECT_EQ(picture->frame->spp, 0);
+    coarsest_seen |= picture->frame->coarseness == 8;
+    // The back wall is lit everywhere: no hole is left black.
+    for (int x = 180; x < 220; ++x)
+      EXPECT_GT(picture->frame->linear[80 * 400 + static_cast<std::size_t>(x)].x, 0);
+    EXPECT_GE(session.status().first_image_ms, 0);
+  }
+  EXPECT_TRUE(coarsest_seen);
+}
+
+TEST(RenderSession, ManyEditsEndInTheLastOne) {
+  RenderSession session;
+  Document d = small_cornell();
+  for (int i = 0; i < 50; ++i) {
+    d.scene.camera.position.x = 278.0f + static_cast<float>(i);
+    session.submit(d);
+  }
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_TRUE(session.latest()->linear == headless(d));
+  EXPECT_EQ(session.status().submitted, 50u);
+  EXPECT_LE(session.status().restarts, 50u);
+}
+
+TEST(RenderSession, DisplayChangesRetoneWithoutRestart) {
+  RenderSession session;
+  Document d = small_cornell();
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  auto before = session.display();
+  std::uint64_t restarts = session.status().restarts;
+  d.settings.display.exposure = 2;
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  auto after = session.display();
+  EXPECT_EQ(session.status().restarts, restarts);
+  EXPECT_EQ(after->frame, before->frame);
+  EXPECT_NE(after->rgba, before->rgba);
+}
+
+TEST(RenderSession, MoreSamplesContinueInsteadOfRestarting) {
+  RenderSession session;
+  Document d = small_cornell(2);
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  d.settings.stop.spp = 7;
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.status().restarts, 1u);
+  EXPECT_EQ(session.latest()->spp, 7);
+  EXPECT_TRUE(session.latest()->linear == headless(d));
+}
+
+TEST(RenderSession, AMaterialEditRestartsAndShowsItself) {
+  RenderSession session;
+  Document d = small_cornell();
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  d.scene.materials[0].diffuse = {0.1f, 0.2f, 0.9f};
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.status().restarts, 2u);
+  EXPECT_TRUE(session.latest()->linear == headless(d));
+}
+
+TEST(RenderSession, EmissionEditRebuildsLights) {
+  RenderSession session;
+  Document d = small_cornell();
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  d.scene.materials[0].emission = {0.5f, 0.5f, 0.5f};
+  d.scene.lights.push_back({"sun", LightType::point, {278, 273, 279}, {0, -1, 0}, {1e5f, 1e5f, 1e5f}, 1});
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_TRUE(session.latest()->linear == headless(d));
+}
+
+TEST(RenderSession, FilmSizesFromOnePixelUp) {
+  RenderSession session;
+  for (auto [w, h] : {std::pair{1, 1}, {7, 3}, {8, 8}, {9, 17}, {130, 2}}) {
+    Document d = small_cornell(3, w, h);
+    session.submit(d);
+    ASSERT_TRUE(session.wait_finished(kPatience));
+    auto picture = session.display();
+    EXPECT_EQ(picture->width, w);
+    EXPECT_EQ(picture->height, h);
+    EXPECT_TRUE(picture->frame->linear == headless(d)) << w << "x" << h;
+  }
+}
+
+TEST(RenderSession, WaitsEndAndDestructionCancels) {
+  Document d = small_cornell(0, 400, 300); // never finished
+  RenderSession session;
+  session.submit(d);
+  EXPECT_FALSE(session.wait_finished(0.2));
+  // The destructor must come back; the test's own limit catches it if it does not.
+}
+
+TEST(RenderSession, PicksWhatIsUnderAPixel) {
+  RenderSession session;
+  EXPECT_FALSE(session.pick({0, 0}));
+  Document d = small_cornell(1, 64, 64);
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  auto hit = session.pick({32, 20}); // the back wall above the blocks
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->position.z, 559.2f, 0.1f);
+  EXPECT_NEAR(hit->view_depth, 1359.2f, 0.2f);
+  EXPECT_EQ(hit->instance, 1);
+  EXPECT_FALSE(session.pick({0, 0})); // past the front edge of the box
+}
+
+TEST(RenderSession, CountsOnlyItsOwnAccumulation) {
+  RenderSession session;
+  Document d = small_cornell(3);
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  SessionStatus status = session.status();
+  EXPECT_EQ(status.rays.samples, 3u * 61u * 43u);
+  EXPECT_EQ(status.progress, 1);
+  EXPECT_EQ(status.phase, SessionPhase::finished);
+  EXPECT_EQ(status.nonfinite, 0u);
+  EXPECT_GT(status.rays.closest, status.rays.samples);
+}
+
+} // namespace
+} // namespace candela
