@@ -1,0 +1,81 @@
+#pragma once
+// What a window system tells the viewer, in terms of none: GLFW's callbacks and the tests make the same
+// values. Positions are framebuffer pixels from the top left.
+
+#include "core/math.h"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace candela {
+
+/// Keys by what is printed on a US keyboard; only those that the window or a text field knows.
+enum class Key : int {
+  none,
+  // clang-format off
+  a, c, d, e, p, q, s, v, w, x, y, z,
+  digit_0, minus, equal,
+  // clang-format on
+  space,
+  tab,
+  enter,
+  keypad_enter,
+  escape,
+  backspace,
+  insert,
+  del,
+  home,
+  end,
+  page_up,
+  page_down,
+  left,
+  right,
+  up,
+  down,
+  f1,
+  left_shift,
+  right_shift,
+  left_control,
+  right_control,
+  left_alt,
+  right_alt,
+  left_super,
+  right_super,
+  count, ///< not a key
+};
+
+enum class MouseButton : int { left, right, middle };
+
+struct MouseMoved {
+  vec2 position{0};
+};
+struct MouseButtonChanged {
+  MouseButton button = MouseButton::left;
+  bool down = false;
+};
+struct MouseScrolled {
+  vec2 notches{0}; ///< y > 0: away from the hand
+};
+struct KeyChanged {
+  Key key = Key::none;
+  bool down = false; ///< repeats of a held key are not reported
+};
+struct TextTyped {
+  char32_t character = 0;
+};
+/// Size of the framebuffer, and the scale of the monitor that it is on (1: 96 dots an inch).
+struct Resized {
+  ivec2 framebuffer{0};
+  float content_scale = 1;
+};
+struct FilesDropped {
+  std::vector<std::string> paths;
+};
+/// All keys and buttons count as released: nobody flies on while another window has the keyboard.
+struct FocusLost {};
+
+using Event = std::variant<MouseMoved, MouseButtonChanged, MouseScrolled, KeyChanged, TextTyped, Resized,
+                           FilesDropped, FocusLost>;
+
+} // namespace candela

@@ -1,0 +1,33 @@
+#pragma once
+// The panels: each draws itself with Ui into the current ImGui window and edits the state's Document.
+
+#include "app/viewer_state.h"
+#include "app/widgets.h"
+
+namespace candela {
+
+void statistics_panel(Ui& ui, ViewerState& state);
+void display_panel(Ui& ui, ViewerState& state);
+/// Every row of the settings table that is not the camera's or the display's, by group.
+void render_panel(Ui& ui, ViewerState& state);
+void camera_panel(Ui& ui, ViewerState& state);
+void materials_panel(Ui& ui, ViewerState& state);
+void lights_panel(Ui& ui, ViewerState& state);
+void scenes_panel(Ui& ui, ViewerState& state);
+
+/// The column of all of them along the right edge of the window.
+void panel_column(Ui& ui, ViewerState& state, vec2 position, vec2 size);
+
+/// The line along the bottom: progress, speed, what is going on.
+void status_line(Ui& ui, ViewerState& state, vec2 position, vec2 size);
+
+/// The strip over the picture that tells what went wrong; the rest of the window goes on working.
+void error_strip(Ui& ui, ViewerState& state, vec2 position, float width);
+
+/// Every key, over the picture.
+void help_overlay(Ui& ui, ViewerState& state, vec2 center, vec2 room);
+
+/// One line over the picture: the hint of the first seconds, or a notice while the status line is hidden.
+void floating_line(Ui& ui, const char* name, std::string_view text, vec2 bottom_center);
+
+} // namespace candela

@@ -1,0 +1,97 @@
+// What lies over the picture: errors, help, the hint of the first seconds. Nothing of it is modal.
+
+#include "app/panels.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace candela {
+
+namespace {
+
+constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                                      ImGuiWindowFlags_NoFocusOnAppearing;
+
+struct KeyHelp {
+  const char* keys;
+  const char* what;
+};
+constexpr KeyHelp kHelp[] = {
+    {"W S, Up Down", "fly forward, back"},
+    {"Q E, Left Right", "fly to the left, right"},
+    {"Space X", "fly up, down"},
+    {"A D", "look to the left, right"},
+    {"Insert Delete", "look up, down"},
+    {"drag", "look around"},
+    {"Shift", "four times as fast"},
+    {"wheel", "change the speed"},
+    {"Home", "the view that the scene came with"},
+    {"click", "focus there, and pick its material"},
+    {"P", "save PNG and EXR under new names"},
+    {"Tab", "hide or show all panels"},
+    {"Ctrl + - 0", "larger, smaller, normal text"},
+    {"Ctrl+click, double click", "type a value, reset it"},
+    {"drop a file", "open that scene"},
+    {"F1, Esc", "show or hide this help"},
+    {"Ctrl+Q", "quit"},
+};
+
+} // namespace
+
+void error_strip(Ui& ui, ViewerState& state, vec2 position, float width) {
+  if (state.error.empty() || width < 1) return;
+  ImGui::SetNextWindowPos(ImVec2(position.x, position.y));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, 1e6f));
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.36f, 0.12f, 0.10f, 0.97f));
+  if (ImGui::Begin("##error", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
+    const float button = 72 * ui.scale();
+    ImGui::PushTextWrapPos(std::max(width - button - 3 * ImGui::GetStyle().WindowPadding.x, 1.0f));
+    ImGui::TextUnformatted(state.error.c_str());
+    ImGui::PopTextWrapPos();
+    ui.record("error.text");
+    ImGui::SameLine(std::max(width - button - ImGui::GetStyle().WindowPadding.x, 1.0f));
+    if (ui.button("error.dismiss", "Dismiss", {}, button)) state.error.clear();
+  }
+  ImGui::End();
+  ImGui::PopStyleColor();
+}
+
+void help_overlay(Ui& ui, ViewerState& state, vec2 center, vec2 room) {
+  if (!state.help_visible) return;
+  ImGui::SetNextWindowPos(ImVec2(center.x, center.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+  ImGui::SetNextWindowSizeConstraints(ImVec2(1, 1), ImVec2(std::max(room.x, 1.0f), std::max(room.y, 1.0f)));
+  ImGui::SetNextWindowBgAlpha(0.95f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(22 * ui.scale(), 16 * ui.scale()));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * ui.scale());
+  if (ImGui::Begin("##help", nullptr,
+                   (kOverlay & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_AlwaysAutoResize)) {
+    const float column = 190 * ui.scale();
+    for (const KeyHelp& line : kHelp) {
+      ImGui::TextUnformatted(line.keys);
+      ImGui::SameLine(column);
+      ImGui::TextDisabled("%s", line.what);
+    }
+    ImGui::Dummy(ImVec2(0, 4 * ui.scale()));
+    if (ui.button("help.close", "Close")) state.help_visible = false;
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
+void floating_line(Ui& ui, const char* name, std::string_view text, vec2 bottom_center) {
+  ImGui::SetNextWindowPos(ImVec2(bottom_center.x, bottom_center.y - 12 * ui.scale()), ImGuiCond_Always,
+                          ImVec2(0.5f, 1));
+  ImGui::SetNextWindowBgAlpha(0.85f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * ui.scale());
+  if (ImGui::Begin("##floating", nullptr,
+                   kOverlay | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
+    ImGui::TextUnformatted(text.data(), text.data() + text.size());
+    ui.record(name);
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+} // namespace candela

@@ -1,0 +1,158 @@
+// The panels of what is in the scene, and of which scene it is.
+
+#include "app/panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace candela {
+
+namespace {
+
+constexpr int kListRows = 6;
+
+template <class T>
+std::string name_or_number(const T& thing, std::string_view kind, std::size_t index) {
+  return thing.name.empty() ? fmt::format("{} {}", kind, index) : thing.name;
+}
+
+bool begin_list(const char* id, std::size_t count) {
+  const auto rows = static_cast<float>(std::clamp<std::size_t>(count, 1, kListRows));
+  return ImGui::BeginListBox(
+      id, ImVec2(-1, rows * ImGui::GetTextLineHeightWithSpacing() + 2 * ImGui::GetStyle().FramePadding.y));
+}
+
+/// The material as it was loaded, if the list still is the scene's.
+template <class T>
+void* initial_of(const Field<T>& row, std::vector<T>& home, std::size_t index) {
+  return index < home.size() ? row.address(home[index]) : nullptr;
+}
+
+void light_fields_of(Ui& ui, ViewerState& state, std::size_t index) {
+  LightDesc& light = state.document.scene.lights[index];
+  for (const auto& row : light_fields()) {
+    if (!light_uses(light.type, row.key)) continue;
+    FieldContext context;
+    context.initial = initial_of(row, state.home.scene.lights, index);
+    context.drag_speed = 0.005f * state.natural_speed;
+    state.edited |= ui.field(fmt::format("light.{}", row.key), row, row.address(light), context);
+  }
+}
+
+void emission_fields_of(Ui& ui, ViewerState& state, std::size_t index) {
+  Material& material = state.document.scene.materials[index];
+  for (const auto& row : material_fields()) {
+    if (row.key != "emission" && row.key != "two_sided_emission") continue;
+    FieldContext context;
+    context.initial = initial_of(row, state.home.scene.materials, index);
+    state.edited |= ui.field(fmt::format("emitter.{}", row.key), row, row.address(material), context);
+  }
+}
+
+/// A material that shines, or shone when the scene was loaded: one turned down to black can be turned up.
+std::vector<std::size_t> emitters(const ViewerState& state) {
+  std::vector<std::size_t> found;
+  const auto& now = state.document.scene.materials;
+  const auto& home = state.home.scene.materials;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (!is_black(now[i].emission) || (i < home.size() && !is_black(home[i].emission))) found.push_back(i);
+  return found;
+}
+
+} // namespace
+
+void materials_panel(Ui& ui, ViewerState& state) {
+  if (!ui.section("panel.materials", "Materials", false)) return;
+  auto& materials = state.document.scene.materials;
+  if (materials.empty()) {
+    ImGui::TextDisabled("The scene has none.");
+    return;
+  }
+  state.selected_material = std::clamp(state.selected_material, 0, static_cast<int>(materials.size()) - 1);
+  if (begin_list("##materials", materials.size())) {
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      if (ui.item(fmt::format("materials/{}", i), name_or_number(materials[i], "Material", i).c_str(),
+                  static_cast<int>(i) == state.selected_material))
+        state.selected_material = static_cast<int>(i);
+    ImGui::EndListBox();
+  }
+  const auto index = static_cast<std::size_t>(state.selected_material);
+  Material& material = materials[index];
+  ImGui::PushID(state.selected_material); // a half-typed value belongs to one material
+  for (const auto& row : material_fields()) {
+    if (!material_uses(material.type, row.key)) continue;
+    FieldContext context;
+    context.initial = initial_of(row, state.home.scene.materials, index);
+    state.edited |= ui.field(fmt::format("material.{}", row.key), row, row.address(material), context);
+  }
+  ImGui::PopID();
+  if (material.diffuse_texture >= 0 &&
+      static_cast<std::size_t>(material.diffuse_texture) < state.document.scene.textures.size())
+    ui.readout("texture",
+               state.document.scene.textures[static_cast<std::size_t>(material.diffuse_texture)]->name,
+               "A picture that multiplies the diffuse colour");
+}
+
+void lights_panel(Ui& ui, ViewerState& state) {
+  if (!ui.section("panel.lights", "Lights", false)) return;
+  const auto& lights = state.document.scene.lights;
+  const std::vector<std::size_t> shining = emitters(state);
+  const std::size_t count = lights.size() + shining.size();
+  if (count == 0) {
+    ImGui::TextDisabled("The scene has none.");
+    return;
+  }
+  state.selected_light = std::clamp(state.selected_light, 0, static_cast<int>(count) - 1);
+  if (begin_list("##lights", count)) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool is_light = i < lights.size();
+      const std::size_t index = is_light ? i : shining[i - lights.size()];
+      const std::string name = is_light ? fmt::format("lights/{}", index) : fmt::format("emitters/{}", index);
+      const std::string label =
+          is_light ? name_or_number(lights[index], "Light", index)
+                   : fmt::format("{} (surface)",
+                                 name_or_number(state.document.scene.materials[index], "Material", index));
+      if (ui.item(name, label.c_str(), static_cast<int>(i) == state.selected_light))
+        state.selected_light = static_cast<int>(i);
+    }
+    ImGui::EndListBox();
+  }
+  const auto selected = static_cast<std::size_t>(state.selected_light);
+  ImGui::PushID(state.selected_light);
+  if (selected < lights.size())
+    light_fields_of(ui, state, selected);
+  else
+    emission_fields_of(ui, state, shining[selected - lights.size()]);
+  ImGui::PopID();
+}
+
+void scenes_panel(Ui& ui, ViewerState& state) {
+  if (!ui.section("panel.scenes", "Scenes", false)) return;
+  if (begin_list("##scenes", state.scenes.size())) {
+    for (std::size_t i = 0; i < state.scenes.size(); ++i) {
+      const std::string path = state.scenes[i].string();
+      if (ui.item(fmt::format("scenes/{}", i), state.scenes[i].stem().string().c_str(),
+                  path == state.scene_path))
+        state.open_path = path;
+      ui.tooltip(path);
+    }
+    if (state.scenes.empty()) ImGui::TextDisabled("None came with the program.");
+    ImGui::EndListBox();
+  }
+  const float button = 64 * ui.scale();
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const bool entered =
+      ui.text("scene.path", "Path of a scene, or drop it here", state.path_input, -button - gap);
+  ImGui::SameLine();
+  const bool pressed = ui.button("scene.open", "Open", "Reads the scene beside the running one", button);
+  if ((entered || pressed) && !state.path_input.empty()) state.open_path = state.path_input;
+  for (const std::string& warning : state.warnings) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextDisabled("%s", warning.c_str());
+    ImGui::PopTextWrapPos();
+  }
+}
+
+} // namespace candela

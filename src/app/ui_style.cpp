@@ -1,0 +1,98 @@
+#include "app/ui_style.h"
+
+#include <imgui.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+namespace candela {
+
+namespace {
+
+// fonts-roboto-unhinted and fonts-dejavu-core have tabular digits; fonts-inter has them only as an OpenType
+// feature, which ImGui cannot switch on.
+constexpr std::array kTypefaces = {
+    "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
+    "/usr/share/fonts/truetype/roboto/Roboto-Regular.ttf",
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+    "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
+    "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+};
+constexpr float kTextSize = 15; // pixels at scale 1
+
+// Latin, Greek and Cyrillic for file and material names, dashes, bullets and the ellipsis.
+constexpr ImWchar kGlyphs[] = {0x20, 0x24f, 0x370, 0x52f, 0x2010, 0x2027, 0x2030, 0x203a, 0x2212, 0x2212, 0};
+
+ImVec4 grey(float value, float alpha = 1) { return {value, value, value, alpha}; }
+
+} // namespace
+
+UiFonts load_fonts(ImFontAtlas& atlas, float scale) {
+  ImFontConfig config;
+  config.OversampleH = scale < 1.5f ? 3 : 2;
+  config.OversampleV = 1;
+  config.PixelSnapH = true; // and so equal advances stay equal
+  for (const char* file : kTypefaces) {
+    std::error_code failed;
+    if (!std::filesystem::is_regular_file(file, failed)) continue;
+    if (ImFont* font = atlas.AddFontFromFileTTF(file, std::round(kTextSize * scale), &config, kGlyphs))
+      return {font, true};
+  }
+  ImFontConfig fallback;
+  fallback.SizePixels = std::round(13 * scale);
+  return {atlas.AddFontDefault(&fallback), false};
+}
+
+void apply_style(float scale) {
+  ImGuiStyle style;
+  ImGui::StyleColorsDark(&style);
+  style.WindowRounding = 0;
+  style.FrameRounding = 3;
+  style.GrabRounding = 2;
+  style.PopupRounding = 4;
+  style.ScrollbarRounding = 4;
+  style.WindowBorderSize = 0;
+  style.PopupBorderSize = 1;
+  style.FrameBorderSize = 0;
+  style.WindowPadding = {12, 8};
+  style.FramePadding = {6, 3};
+  style.ItemSpacing = {6, 4};
+  style.ItemInnerSpacing = {4, 4};
+  style.ScrollbarSize = 11;
+  style.GrabMinSize = 9;
+  style.ButtonTextAlign = {0.5f, 0.5f};
+  style.ScaleAllSizes(scale);
+
+  auto* colors = style.Colors;
+  const ImVec4 accent(0.85f, 0.62f, 0.30f, 1); // candle light; used for marks only, never for areas
+  colors[ImGuiCol_Text] = grey(0.87f);
+  colors[ImGuiCol_TextDisabled] = grey(0.56f);
+  colors[ImGuiCol_WindowBg] = grey(0.145f, 0.97f);
+  colors[ImGuiCol_ChildBg] = grey(0, 0);
+  colors[ImGuiCol_PopupBg] = grey(0.17f, 0.99f);
+  colors[ImGuiCol_Border] = grey(0.30f);
+  colors[ImGuiCol_FrameBg] = grey(0.21f);
+  colors[ImGuiCol_FrameBgHovered] = grey(0.26f);
+  colors[ImGuiCol_FrameBgActive] = grey(0.29f);
+  colors[ImGuiCol_ScrollbarBg] = grey(0.145f);
+  colors[ImGuiCol_ScrollbarGrab] = grey(0.30f);
+  colors[ImGuiCol_ScrollbarGrabHovered] = grey(0.38f);
+  colors[ImGuiCol_ScrollbarGrabActive] = grey(0.45f);
+  colors[ImGuiCol_CheckMark] = accent;
+  colors[ImGuiCol_SliderGrab] = grey(0.50f);
+  colors[ImGuiCol_SliderGrabActive] = accent;
+  colors[ImGuiCol_Button] = grey(0.25f);
+  colors[ImGuiCol_ButtonHovered] = grey(0.32f);
+  colors[ImGuiCol_ButtonActive] = grey(0.38f);
+  colors[ImGuiCol_Header] = grey(0.205f);
+  colors[ImGuiCol_HeaderHovered] = grey(0.27f);
+  colors[ImGuiCol_HeaderActive] = grey(0.31f);
+  colors[ImGuiCol_Separator] = grey(0.26f);
+  colors[ImGuiCol_PlotHistogram] = grey(0.46f);
+  colors[ImGuiCol_TextSelectedBg] = ImVec4(0.85f, 0.62f, 0.30f, 0.35f);
+  ImGui::GetStyle() = style;
+}
+
+} // namespace candela

@@ -1,0 +1,24 @@
+#pragma once
+// Looks: a scalable typeface from Debian's packages and a neutral dark style, both sized by the monitor.
+
+struct ImFontAtlas;
+struct ImFont;
+
+namespace candela {
+
+/// Grey of the empty window, sRGB; neutral, because a coloured frame lies about colours.
+inline constexpr float kBackgroundGrey = 0.11f;
+
+struct UiFonts {
+  ImFont* regular = nullptr;
+  bool scalable = false; ///< false: none of the typefaces is installed, ImGui's own stands in
+};
+
+/// Fills an empty atlas for the scale (1: 96 dots an inch). The first installed typeface whose digits are all
+/// equally wide is taken, so that running numbers stand still.
+UiFonts load_fonts(ImFontAtlas& atlas, float scale);
+
+/// Sets the current ImGui context's style for the scale.
+void apply_style(float scale);
+
+} // namespace candela

@@ -1,0 +1,282 @@
+#include "app/viewer.h"
+
+#include "app/data_file.h"
+#include "app/picture_saver.h"
+#include "app/ui_style.h"
+#include "core/error.h"
+#include "io/scene_builder.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_internal.h> // WantTextInputNextFrame
+
+#include <chrono>
+
+namespace candela {
+
+namespace {
+
+constexpr float kColumnWidth = 352; // at scale 1, like all lengths here
+constexpr float kStatusHeight = 24;
+/// Windows smaller than this show the picture alone: no panel would be readable in them.
+constexpr float kMinPanelWindowWidth = 420, kMinPanelWindowHeight = 160;
+/// A window on a dense monitor may be small all the same: the panels then take no more than they would of a
+/// window of this size.
+constexpr float kScaleReferenceWidth = 960, kScaleReferenceHeight = 540;
+constexpr double kHintSeconds = 10;
+constexpr double kNoticeSeconds = 6;
+constexpr int kFramesToSettle = 3;
+constexpr double kBusyRedrawSeconds = 0.25; // running numbers, blinking text cursors
+constexpr double kIdleRedrawSeconds = 5;
+
+bool is_busy(SessionPhase phase) {
+  return phase == SessionPhase::building || phase == SessionPhase::rendering;
+}
+
+std::unique_ptr<RenderSession> make_session(const ViewerOptions& options) {
+  SessionOptions session;
+  session.threads = options.threads;
+  session.on_publish = options.wake;
+  return std::make_unique<RenderSession>(std::move(session));
+}
+
+} // namespace
+
+std::string scene_title(const ViewerState& state) {
+  if (state.scene_path.empty()) return "Cornell box";
+  return std::filesystem::path(state.scene_path).filename().string();
+}
+
+Viewer::Viewer(const Gl& gl, ViewerOptions options)
+    : gl_(gl), options_(std::move(options)), draw_(gl), viewport_(gl), session_(make_session(options_)),
+      reader_(options_.wake), writer_(options_.wake) {
+  imgui_ = ImGui::CreateContext();
+  ImGui::SetCurrentContext(imgui_);
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr; // leaves no files behind
+  io.LogFilename = nullptr;
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset | ImGuiBackendFlags_HasMouseCursors;
+  io.ConfigDragClickToInputText = true;
+  map_keys();
+  state_.scenes = bundled_scenes();
+  state_.fit_film = options_.fit_film;
+  const Bounds3 bounds = scene_bounds(options_.document.scene);
+  install_scene(std::move(options_.document), options_.scene_path, std::move(options_.warnings), bounds);
+}
+
+Viewer::~Viewer() { ImGui::DestroyContext(imgui_); }
+
+void Viewer::handle(Event event) { events_.push_back(std::move(event)); }
+
+std::string Viewer::title() const { return scene_title(state_) + " - Candela"; }
+
+void Viewer::frame(double now) {
+  const auto began = std::chrono::steady_clock::now();
+  ImGui::SetCurrentContext(imgui_);
+  if (first_frame_ < 0) first_frame_ = now;
+  ImGuiIO& io = ImGui::GetIO();
+  io.DeltaTime = static_cast<float>(std::clamp(now - now_, 1e-4, 0.1));
+  now_ = now;
+
+  redraws_ = events_.empty() ? std::max(redraws_ - 1, 0) : kFramesToSettle;
+  feed_events();
+  reader_.run_completions();
+  writer_.run_completions();
+  update_scale();
+  state_.status = session_->status();
+  drawn_phase_ = state_.status.phase;
+  state_.loading = reader_.pending();
+  if (now > notice_until_) state_.notice.clear();
+  if (state_.status.phase == SessionPhase::failed && failed_generation_ != state_.status.submitted) {
+    failed_generation_ = state_.status.submitted;
+    state_.error = state_.status.error;
+  }
+  viewport_.show(session_->display());
+  state_.picture = viewport_.shown();
+
+  io.DisplaySize = ImVec2(static_cast<float>(framebuffer_.x), static_cast<float>(framebuffer_.y));
+  ImGui::NewFrame();
+  ui_.begin_frame(state_.scale);
+  run_shortcuts();
+  draw_ui();
+  typing_ = io.WantTextInput || imgui_->WantTextInputNextFrame > 0;
+  use_mouse_on_picture();
+  fly();
+  serve_requests();
+  fit_film();
+  if (state_.edited) session_->submit(state_.document), state_.edited = false;
+  ImGui::Render();
+
+  if (framebuffer_.x > 0 && framebuffer_.y > 0) {
+    gl_.Viewport(0, 0, framebuffer_.x, framebuffer_.y);
+    gl_.ClearColor(kBackgroundGrey, kBackgroundGrey, kBackgroundGrey, 1);
+    gl_.Clear(GL_COLOR_BUFFER_BIT);
+    viewport_.draw(picture_rect(), framebuffer_);
+    draw_.draw(*ImGui::GetDrawData());
+  }
+  state_.frame_ms =
+      std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - began).count();
+}
+
+bool Viewer::wants_redraw() const {
+  return !events_.empty() || redraws_ > 0 || fly_command().any() || reader_.has_completions() ||
+         writer_.has_completions() || session_->display() != viewport_.shown() ||
+         session_->status().phase != drawn_phase_;
+}
+
+double Viewer::idle_seconds() const {
+  if (fly_command().any()) return 0;
+  if (typing_ && std::ranges::any_of(ImGui::GetIO().KeysDown, std::identity())) return 0; // keys repeat
+  if (is_busy(drawn_phase_) || typing_ || state_.loading > 0) return kBusyRedrawSeconds;
+  double idle = kIdleRedrawSeconds;
+  if (!state_.notice.empty()) idle = std::min(idle, std::max(notice_until_ - now_, 0.0) + 0.01);
+  const double hint_end = first_frame_ + kHintSeconds;
+  if (now_ < hint_end) idle = std::min(idle, hint_end - now_ + 0.01);
+  return idle;
+}
+
+void Viewer::update_scale() {
+  const float room = std::min(static_cast<float>(framebuffer_.x) / kScaleReferenceWidth,
+                              static_cast<float>(framebuffer_.y) / kScaleReferenceHeight);
+  const float wanted = std::min(content_scale_, std::max(room, 1.0f)) * text_zoom_;
+  const float scale = std::clamp(std::round(wanted * 8) / 8, 0.5f, 4.0f); // few steps: each builds an atlas
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  if (scale == state_.scale && atlas.IsBuilt()) return;
+  state_.scale = scale;
+  atlas.Clear();
+  load_fonts(atlas, scale);
+  draw_.upload_fonts(atlas);
+  apply_style(scale);
+}
+
+bool Viewer::shows_panels() const {
+  return state_.panels_visible && static_cast<float>(framebuffer_.x) >= kMinPanelWindowWidth * state_.scale &&
+         static_cast<float>(framebuffer_.y) >= kMinPanelWindowHeight * state_.scale;
+}
+
+PixelRect Viewer::free_region() const {
+  PixelRect region{0, 0, framebuffer_.x, framebuffer_.y};
+  if (shows_panels()) {
+    region.width -= static_cast<int>(std::round(kColumnWidth * state_.scale));
+    region.height -= static_cast<int>(std::round(kStatusHeight * state_.scale));
+  }
+  return region;
+}
+
+PixelRect Viewer::picture_rect() const {
+  const ivec2 film = state_.picture ? ivec2(state_.picture->width, state_.picture->height)
+                                    : glm::max(framebuffer_, ivec2(1));
+  if (!state_.fit_film) return letterbox(free_region(), film);
+  // The film has the window's size, so that no panel's coming and going restarts it; its middle is kept in
+  // the middle of what the panels leave free. While the window is being resized the old picture fills in.
+  return letterbox(centered(free_region(), glm::max(framebuffer_, ivec2(1))), film);
+}
+
+void Viewer::draw_ui() {
+  const PixelRect free = free_region();
+  const vec2 free_size(free.width, free.height);
+  const vec2 window(framebuffer_);
+  if (shows_panels()) {
+    panel_column(ui_, state_, vec2(free_size.x, 0), vec2(window.x - free_size.x, free_size.y));
+    status_line(ui_, state_, vec2(0, free_size.y), vec2(window.x, window.y - free_size.y));
+  }
+  error_strip(ui_, state_, vec2(0), free_size.x);
+  help_overlay(ui_, state_, 0.5f * free_size, 0.96f * free_size);
+  const vec2 bottom_center(0.5f * free_size.x, free_size.y);
+  if (!shows_panels() && !state_.notice.empty())
+    floating_line(ui_, "notice", state_.notice, bottom_center);
+  else if (now_ - first_frame_ < kHintSeconds && !state_.help_visible)
+    floating_line(ui_, "hint", "W A S D to fly, drag to look, click to focus; F1 shows every key",
+                  bottom_center);
+}
+
+void Viewer::fit_film() {
+  if (!state_.fit_film) return;
+  FilmSettings& film = state_.document.settings.film;
+  const ivec2 size = glm::clamp(framebuffer_, ivec2(1), ivec2(16384));
+  if (film.width == size.x && film.height == size.y) return;
+  film.width = size.x;
+  film.height = size.y;
+  state_.edited = true;
+}
+
+void Viewer::serve_requests() {
+  if (state_.reset_view_requested) {
+    state_.edited |= state_.document.scene.camera != state_.home.scene.camera;
+    state_.document.scene.camera = state_.home.scene.camera;
+    notify("The view is the scene's own again");
+  }
+  if (state_.save_requested) save_shown_picture();
+  if (state_.open_path) open_scene(*state_.open_path);
+  state_.open_path.reset();
+  state_.reset_view_requested = state_.save_requested = false;
+}
+
+void Viewer::open_scene(const std::string& path) {
+  state_.loading_path = path;
+  state_.path_input = path;
+  const std::uint64_t request = ++open_requests_;
+  reader_.post([this, path, request, reading = options_.reading]() -> TaskThread::Completion {
+    std::string problem;
+    try {
+      LoadedScene loaded = read_scene(path, reading);
+      problem = camera_problem(loaded.document.scene.camera);
+      if (problem.empty()) {
+        const Bounds3 bounds = scene_bounds(loaded.document.scene);
+        return [this, path, request, bounds, scene = std::make_shared<LoadedScene>(std::move(loaded))] {
+          if (request != open_requests_) return; // another was asked for meanwhile
+          std::vector<std::string> warnings;
+          for (const Warning& warning : scene->warnings) warnings.push_back(warning.text);
+          install_scene(std::move(scene->document), path, std::move(warnings), bounds);
+          notify(fmt::format("Opened {}", path));
+        };
+      }
+      problem = fmt::format("{}: {}", path, problem);
+    } catch (const std::bad_alloc&) {
+      problem = fmt::format("{}: there is not enough memory for it: close other programs", path);
+    } catch (const std::exception& error) { // an Error, or what a library throws: shown either way
+      problem = error.what();
+    }
+    return [this, problem] { state_.error = problem; };
+  });
+}
+
+void Viewer::install_scene(Document document, std::string path, std::vector<std::string> warnings,
+                           const Bounds3& bounds) {
+  state_.document = std::move(document);
+  state_.home = state_.document;
+  state_.scene_path = std::move(path);
+  state_.warnings = std::move(warnings);
+  state_.bounds = bounds;
+  state_.natural_speed = natural_speed(bounds, state_.document.scene.camera);
+  state_.selected_material = state_.selected_light = 0;
+  state_.error.clear();
+  state_.edited = true;
+}
+
+void Viewer::save_shown_picture() {
+  if (!state_.picture) {
+    notify("There is no picture to save yet");
+    return;
+  }
+  writer_.post(
+      [this, image = state_.picture, folder = options_.screenshot_folder]() -> TaskThread::Completion {
+        try {
+          const SavedPicture saved = save_picture(*image, folder, "candela");
+          return [this, saved] {
+            notify(fmt::format("Saved {} and {}", saved.png.lexically_normal().string(),
+                               saved.exr.filename().string()));
+          };
+        } catch (const std::exception& error) {
+          return [this, problem = std::string(error.what())] { state_.error = problem; };
+        }
+      });
+}
+
+void Viewer::notify(std::string text) {
+  state_.notice = std::move(text);
+  notice_until_ = now_ + kNoticeSeconds;
+  redraws_ = kFramesToSettle;
+}
+
+} // namespace candela

@@ -1,0 +1,133 @@
+#pragma once
+// The window without a window: panels, flight, picture, in any OpenGL 3.3 context. GLFW drives it in the
+// program, the tests drive it through OSMesa; it is the same code. It runs on one thread, the UI's, and never
+// waits for rendering, reading or writing.
+
+#include "app/event.h"
+#include "app/fly_camera.h"
+#include "app/gl.h"
+#include "app/imgui_draw.h"
+#include "app/panels.h"
+#include "app/task_thread.h"
+#include "app/viewer_state.h"
+#include "app/viewport.h"
+#include "app/widgets.h"
+#include "io/scene_reader.h"
+
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <set>
+
+struct ImGuiContext;
+
+namespace candela {
+
+struct ViewerOptions {
+  Document document;                             ///< shown first
+  std::string scene_path;                        ///< where it came from; empty: built in
+  std::vector<std::string> warnings;             ///< of reading it
+  ReadOptions reading;                           ///< of scenes that are opened later
+  bool fit_film = true;                          ///< the film follows the window; else the document's size
+  int threads = 0;                               ///< for rendering; 0: every core
+  std::filesystem::path screenshot_folder = "."; ///< where P saves
+  std::function<void()> wake; ///< called from any thread when there is something to draw; may be empty
+};
+
+class Viewer {
+public:
+  /// The context of `gl` must be current here, in frame() and in the destructor; `gl` must outlive it.
+  Viewer(const Gl& gl, ViewerOptions options);
+  ~Viewer();
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+
+  void handle(Event event);
+
+  /// Draws into the current framebuffer. `now` is any monotonic clock in seconds.
+  void frame(double now);
+
+  /// Whether frame() would show something new.
+  bool wants_redraw() const;
+  /// Seconds that may pass until the next frame() if neither an event nor `wake` comes.
+  double idle_seconds() const;
+  /// Whether events wait that were held back because one frame can show one change of a button at a time.
+  bool has_pending_events() const { return !events_.empty(); }
+  bool wants_close() const { return wants_close_; }
+  std::string title() const;
+
+  const ViewerState& state() const { return state_; }
+  const RenderSession& session() const { return *session_; }
+  std::span<const WidgetRecord> widgets() const { return ui_.widgets(); }
+  /// Where the picture lies; parts of it may be under the panels or outside of the window.
+  PixelRect picture_rect() const;
+  const Viewport& viewport() const { return viewport_; }
+  ImGuiContext* imgui() const { return imgui_; }
+
+private:
+  // viewer_input.cpp
+  static void map_keys();
+  void feed_events();
+  bool fits_into_frame(const Event& event) const;
+  void apply(const Event& event);
+  void apply_key(const KeyChanged& change);
+  void run_shortcuts();
+  FlyCommand fly_command() const;
+  void fly();
+  void use_mouse_on_picture();
+  void focus_at(vec2 screen_position);
+
+  // viewer.cpp
+  void update_scale();
+  void draw_ui();
+  void fit_film();
+  void serve_requests();
+  void open_scene(const std::string& path);
+  void install_scene(Document document, std::string path, std::vector<std::string> warnings,
+                     const Bounds3& bounds);
+  void save_shown_picture();
+  void notify(std::string text);
+  bool shows_panels() const;
+  /// What the panels leave of the window.
+  PixelRect free_region() const;
+
+  const Gl& gl_;
+  ViewerOptions options_;
+  ImGuiContext* imgui_ = nullptr;
+  ImguiDraw draw_;
+  Viewport viewport_;
+  Ui ui_;
+  ViewerState state_;
+
+  std::deque<Event> events_;
+  struct FrameInput { // what this frame has taken from events_
+    bool moved = false;
+    bool typed = false;
+    bool scrolled = false;
+    std::set<MouseButton> buttons;
+    std::set<Key> keys;
+    std::vector<Key> pressed; // not meant for a text field
+  } taken_;
+  std::set<Key> held_;  // keys that fly
+  bool typing_ = false; // a text field has the keyboard
+  bool looking_ = false;
+  vec2 press_position_{0}, drag_position_{0};
+  bool dragged_ = false;
+
+  ivec2 framebuffer_{1280, 720};
+  float content_scale_ = 1;
+  float text_zoom_ = 1; // the user's, by Ctrl + and -
+  double now_ = 0, first_frame_ = -1, last_fly_ = -1, notice_until_ = 0;
+  int redraws_ = 3; // ImGui settles in a few frames
+  SessionPhase drawn_phase_ = SessionPhase::idle;
+  bool wants_close_ = false;
+  std::uint64_t failed_generation_ = 0; // whose error was shown already
+  std::uint64_t open_requests_ = 0;
+
+  // Last, so that they end first: they call `wake`, and their completions use what stands above.
+  std::unique_ptr<RenderSession> session_;
+  TaskThread reader_;
+  TaskThread writer_;
+};
+
+} // namespace candela

@@ -1,0 +1,272 @@
+// Events to Dear ImGui, to the shortcuts, to flight and to the picture.
+
+#include "app/viewer.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace candela {
+
+namespace {
+
+constexpr float kFastFactor = 4;
+constexpr float kSpeedStep = 1.2f; // a notch of the wheel
+constexpr float kMinSpeed = 0.01f, kMaxSpeed = 100;
+constexpr float kTextZoomStep = 1.125f;
+/// A turning key takes this many seconds for an angle of the field of view.
+constexpr float kTurnSeconds = 1.0f;
+constexpr double kFirstFlightStep = 1 / 60.0; // the time before a key went down is not flown
+constexpr double kLongestFlightStep = 0.1;    // after a stall the camera must not be elsewhere
+constexpr float kClickSlack = 4;              // pixels at scale 1 that a click may move
+
+template <class... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
+
+bool flies(Key key) {
+  switch (key) {
+  case Key::w:
+  case Key::s:
+  case Key::q:
+  case Key::e:
+  case Key::a:
+  case Key::d:
+  case Key::x:
+  case Key::space:
+  case Key::up:
+  case Key::down:
+  case Key::left:
+  case Key::right:
+  case Key::insert:
+  case Key::del: return true;
+  default: return false;
+  }
+}
+
+} // namespace
+
+void Viewer::map_keys() {
+  constexpr std::pair<ImGuiKey_, Key> kMap[] = {
+      {ImGuiKey_Tab, Key::tab},
+      {ImGuiKey_LeftArrow, Key::left},
+      {ImGuiKey_RightArrow, Key::right},
+      {ImGuiKey_UpArrow, Key::up},
+      {ImGuiKey_DownArrow, Key::down},
+      {ImGuiKey_PageUp, Key::page_up},
+      {ImGuiKey_PageDown, Key::page_down},
+      {ImGuiKey_Home, Key::home},
+      {ImGuiKey_End, Key::end},
+      {ImGuiKey_Insert, Key::insert},
+      {ImGuiKey_Delete, Key::del},
+      {ImGuiKey_Backspace, Key::backspace},
+      {ImGuiKey_Space, Key::space},
+      {ImGuiKey_Enter, Key::enter},
+      {ImGuiKey_KeyPadEnter, Key::keypad_enter},
+      {ImGuiKey_Escape, Key::escape},
+      {ImGuiKey_A, Key::a},
+      {ImGuiKey_C, Key::c},
+      {ImGuiKey_V, Key::v},
+      {ImGuiKey_X, Key::x},
+      {ImGuiKey_Y, Key::y},
+      {ImGuiKey_Z, Key::z},
+  };
+  for (auto [imgui_key, key] : kMap) ImGui::GetIO().KeyMap[imgui_key] = static_cast<int>(key);
+}
+
+/// Dear ImGui 1.86 sees only the state at the beginning of a frame. So a frame takes at most one change of
+/// each button and key, none of a button after the mouse moved (the item below must have seen the mouse
+/// first), and no movement after a button: a fast click is a click, a fast drag begins where it began.
+bool Viewer::fits_into_frame(const Event& event) const {
+  return std::visit(
+      Overloaded{
+          [&](const MouseMoved&) { return taken_.buttons.empty(); },
+          [&](const MouseButtonChanged& e) { return !taken_.moved && !taken_.buttons.contains(e.button); },
+          [&](const MouseScrolled&) { return !taken_.moved; },
+          [&](const KeyChanged& e) { return !taken_.typed && !taken_.keys.contains(e.key); },
+          [&](const auto&) { return true; },
+      },
+      event);
+}
+
+void Viewer::feed_events() {
+  taken_ = {};
+  while (!events_.empty() && fits_into_frame(events_.front())) {
+    apply(events_.front());
+    events_.pop_front();
+  }
+}
+
+void Viewer::apply(const Event& event) {
+  ImGuiIO& io = ImGui::GetIO();
+  std::visit(Overloaded{
+                 [&](const MouseMoved& e) {
+                   io.MousePos = ImVec2(e.position.x, e.position.y);
+                   taken_.moved = true;
+                 },
+                 [&](const MouseButtonChanged& e) {
+                   io.MouseDown[static_cast<int>(e.button)] = e.down;
+                   taken_.buttons.insert(e.button);
+                 },
+                 [&](const MouseScrolled& e) {
+                   io.MouseWheelH += e.notches.x;
+                   io.MouseWheel += e.notches.y;
+                 },
+                 [&](const KeyChanged& e) { apply_key(e); },
+                 [&](const TextTyped& e) {
+                   io.AddInputCharacter(e.character);
+                   taken_.typed = true;
+                 },
+                 [&](const Resized& e) {
+                   framebuffer_ = glm::max(e.framebuffer, ivec2(0));
+                   if (e.content_scale > 0) content_scale_ = e.content_scale;
+                 },
+                 [&](const FilesDropped& e) {
+                   if (!e.paths.empty()) state_.open_path = e.paths.front();
+                 },
+                 [&](const FocusLost&) {
+                   std::ranges::fill(io.KeysDown, false);
+                   std::ranges::fill(io.MouseDown, false);
+                   io.KeyShift = io.KeyCtrl = io.KeyAlt = io.KeySuper = false;
+                   held_.clear();
+                 },
+             },
+             event);
+}
+
+void Viewer::apply_key(const KeyChanged& change) {
+  if (change.key == Key::none || change.key == Key::count) return;
+  ImGuiIO& io = ImGui::GetIO();
+  taken_.keys.insert(change.key);
+  io.KeysDown[static_cast<int>(change.key)] = change.down;
+  auto down = [&](Key key) { return io.KeysDown[static_cast<int>(key)]; };
+  io.KeyShift = down(Key::left_shift) || down(Key::right_shift);
+  io.KeyCtrl = down(Key::left_control) || down(Key::right_control);
+  io.KeyAlt = down(Key::left_alt) || down(Key::right_alt);
+  io.KeySuper = down(Key::left_super) || down(Key::right_super);
+  if (!change.down) {
+    held_.erase(change.key);
+    return;
+  }
+  if (typing_) return;
+  taken_.pressed.push_back(change.key);
+  if (flies(change.key) && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper) held_.insert(change.key);
+}
+
+void Viewer::run_shortcuts() {
+  const bool control = ImGui::GetIO().KeyCtrl;
+  for (Key key : taken_.pressed) {
+    if (control) {
+      if (key == Key::q) wants_close_ = true;
+      if (key == Key::s) state_.save_requested = true;
+      if (key == Key::equal) text_zoom_ = std::min(text_zoom_ * kTextZoomStep, 2.5f);
+      if (key == Key::minus) text_zoom_ = std::max(text_zoom_ / kTextZoomStep, 0.6f);
+      if (key == Key::digit_0) text_zoom_ = 1;
+      continue;
+    }
+    if (key == Key::tab) state_.panels_visible = !state_.panels_visible;
+    if (key == Key::f1) state_.help_visible = !state_.help_visible;
+    if (key == Key::p) state_.save_requested = true;
+    if (key == Key::home) state_.reset_view_requested = true;
+    if (key == Key::escape) {
+      if (state_.help_visible)
+        state_.help_visible = false;
+      else
+        state_.error.clear();
+    }
+  }
+}
+
+FlyCommand Viewer::fly_command() const {
+  auto axis = [&](std::initializer_list<Key> more, std::initializer_list<Key> less) {
+    auto any = [&](std::initializer_list<Key> keys) {
+      return std::ranges::any_of(keys, [&](Key key) { return held_.contains(key); });
+    };
+    return static_cast<float>(any(more)) - static_cast<float>(any(less));
+  };
+  FlyCommand command;
+  command.move = {axis({Key::e, Key::right}, {Key::q, Key::left}), axis({Key::space}, {Key::x}),
+                  axis({Key::w, Key::up}, {Key::s, Key::down})};
+  command.turn = {axis({Key::a}, {Key::d}), axis({Key::insert}, {Key::del})};
+  return command;
+}
+
+void Viewer::fly() {
+  Camera& camera = state_.document.scene.camera;
+  const FlyCommand command = fly_command();
+  if (!command.any() || !camera_problem(camera).empty()) {
+    last_fly_ = -1;
+    return;
+  }
+  const double dt = last_fly_ < 0 ? kFirstFlightStep : std::clamp(now_ - last_fly_, 0.0, kLongestFlightStep);
+  last_fly_ = now_;
+  const float fast = ImGui::GetIO().KeyShift ? kFastFactor : 1;
+  const float distance = fast * state_.natural_speed * state_.speed_factor * static_cast<float>(dt);
+  const float angle = fast * camera.vertical_fov / kTurnSeconds * static_cast<float>(dt);
+  const Camera before = camera;
+  camera = moved_camera(camera, distance * command.move);
+  if (command.turn != vec2(0)) camera = turned_camera(camera, angle * command.turn.x, angle * command.turn.y);
+  state_.edited |= camera != before;
+}
+
+void Viewer::use_mouse_on_picture() {
+  ImGuiIO& io = ImGui::GetIO();
+  if (!io.WantCaptureMouse && io.MouseWheel != 0) {
+    state_.speed_factor =
+        std::clamp(state_.speed_factor * std::pow(kSpeedStep, io.MouseWheel), kMinSpeed, kMaxSpeed);
+    notify(fmt::format("Speed of flight: {:.2f} x", state_.speed_factor));
+  }
+  const vec2 mouse(io.MousePos.x, io.MousePos.y);
+  if (io.MouseClicked[0] && !io.WantCaptureMouse) {
+    looking_ = true;
+    dragged_ = false;
+    press_position_ = drag_position_ = mouse;
+  }
+  if (!looking_) return;
+  if (glm::length(mouse - press_position_) > kClickSlack * state_.scale) dragged_ = true;
+  Camera& camera = state_.document.scene.camera;
+  if (dragged_ && mouse != drag_position_ && camera_problem(camera).empty()) {
+    const float step = radians_per_pixel(camera, picture_rect().height);
+    const vec2 turn = step * (mouse - drag_position_);
+    const Camera before = camera;
+    camera = turned_camera(camera, -turn.x, -turn.y);
+    state_.edited |= camera != before;
+    drag_position_ = mouse;
+  }
+  if (io.MouseDown[0]) return;
+  looking_ = false;
+  if (!dragged_) focus_at(mouse);
+}
+
+void Viewer::focus_at(vec2 screen_position) {
+  if (!state_.picture) return;
+  const PixelRect rect = picture_rect();
+  const vec2 film(state_.picture->width, state_.picture->height);
+  const vec2 inside = (screen_position + 0.5f - vec2(rect.x, rect.y)) / vec2(rect.width, rect.height);
+  if (inside.x < 0 || inside.y < 0 || inside.x >= 1 || inside.y >= 1) return; // on the frame around it
+  const std::optional<Pick> found = session_->pick(inside * film);
+  if (!found || !(found->view_depth > 0)) {
+    notify("There is nothing to focus on there");
+    return;
+  }
+  const auto& materials = state_.document.scene.materials;
+  std::string on;
+  if (found->material >= 0 && static_cast<std::size_t>(found->material) < materials.size()) {
+    state_.selected_material = found->material;
+    const std::string& name = materials[static_cast<std::size_t>(found->material)].name;
+    if (!name.empty()) on = fmt::format(" on {}", name);
+  }
+  Camera& camera = state_.document.scene.camera;
+  state_.edited |= camera.focus_distance != found->view_depth;
+  camera.focus_distance = found->view_depth;
+  notify(fmt::format("Focus at {:.4g} scene units{}{}", found->view_depth, on,
+                     camera.aperture_radius > 0 ? ""
+                                                : "; a pinhole shows everything sharp: raise Camera, "
+                                                  "aperture radius"));
+}
+
+} // namespace candela

@@ -1,0 +1,55 @@
+#pragma once
+// What the panels look at and change. They only ask (open this, save that); the Viewer does.
+
+#include "core/bounds.h"
+#include "session/render_session.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace candela {
+
+struct ViewerState {
+  Document document;   ///< what the user sees and edits
+  Document home;       ///< as it was loaded: what the camera, materials and lights are reset to
+  bool edited = false; ///< `document` is to be submitted
+
+  std::string scene_path;  ///< empty: the built-in scene
+  Bounds3 bounds;          ///< of the scene, world space
+  float natural_speed = 1; ///< scene units a second
+  float speed_factor = 1;  ///< the user's, times natural_speed
+
+  bool fit_film = true; ///< the film has the window's size
+  bool panels_visible = true;
+  bool help_visible = false;
+  float scale = 1; ///< of the user interface; 1 is 96 dots an inch
+
+  SessionStatus status;
+  std::shared_ptr<const DisplayImage> picture; ///< the one on the screen; null before the first
+  float frame_ms = 0;                          ///< CPU time that the last frame of the window took
+  int loading = 0;                             ///< scenes being read
+  std::string loading_path;
+
+  std::string error;                 ///< shown in a strip until dismissed; empty: none
+  std::vector<std::string> warnings; ///< of the scene
+  std::string notice;                ///< in the status line for a while
+
+  std::vector<std::filesystem::path> scenes; ///< offered in the Scenes panel
+  std::string path_input;
+  int selected_material = 0;
+  int selected_light = 0; ///< lights first, then emissive materials
+
+  // Requests to the Viewer.
+  std::optional<std::string> open_path;
+  bool save_requested = false;
+  bool reset_view_requested = false;
+  bool refresh_scenes_requested = false;
+};
+
+/// Name of the scene's file without its folder, or "Cornell box" for the built-in one.
+std::string scene_title(const ViewerState& state);
+
+} // namespace candela

@@ -1,0 +1,15 @@
+#pragma once
+// The window on the screen: GLFW's callbacks made into events for the Viewer.
+
+#include "app/viewer.h"
+
+namespace candela {
+
+/// Whether there is a display to open a window on.
+bool display_available();
+
+/// Opens the window and returns when it is closed. An Error with ExitCode::display, cause and remedy if there
+/// is no display or no OpenGL 3.3.
+void run_window(ViewerOptions options);
+
+} // namespace candela

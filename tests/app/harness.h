@@ -1,0 +1,332 @@
+#pragma once
+// The Viewer without a window: OSMesa draws into memory, and a hand that moves, presses, types and looks.
+// libOSMesa is opened at run time, because linked beside libGL it would silently take over its functions.
+
+#include "app/viewer.h"
+#include "io/image_file.h"
+
+#include <gtest/gtest.h>
+
+#include <dlfcn.h>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace candela::test {
+
+/// An OpenGL 3.3 core context that draws into memory.
+class OffscreenContext {
+public:
+  OffscreenContext() {
+    library_ = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
+    if (library_ == nullptr) throw std::runtime_error("libOSMesa.so.8 is missing: install libosmesa6");
+    find(create_, "OSMesaCreateContextAttribs");
+    find(make_current_, "OSMesaMakeCurrent");
+    find(destroy_, "OSMesaDestroyContext");
+    find(get_proc_, "OSMesaGetProcAddress");
+    // From GL/osmesa.h: format RGBA, profile core, version 3.3.
+    const int attributes[] = {0x22, GL_RGBA, 0x33, 0x34, 0x36, 3, 0x37, 3, 0};
+    context_ = create_(attributes, nullptr);
+    if (context_ == nullptr) throw std::runtime_error("OSMesa made no OpenGL 3.3 core context");
+    resize({1, 1});
+    gl_ = load_gl([](const char* name) { return get_proc_(name); });
+  }
+  ~OffscreenContext() { destroy_(context_); } // the library stays: its threads outlive the context
+  OffscreenContext(const OffscreenContext&) = delete;
+  OffscreenContext& operator=(const OffscreenContext&) = delete;
+
+  void resize(ivec2 size) {
+    size_ = size;
+    memory_.assign(4 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), 0);
+    if (make_current_(context_, memory_.data(), GL_UNSIGNED_BYTE, size.x, size.y) == 0)
+      throw std::runtime_error("OSMesaMakeCurrent failed");
+  }
+
+  const Gl& gl() const { return gl_; }
+  ivec2 size() const { return size_; }
+
+  /// RGBA of the framebuffer, row 0 at the top.
+  std::vector<std::uint8_t> pixels() const {
+    std::vector<std::uint8_t> bottom_up(memory_.size()), out;
+    gl_.Finish();
+    gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl_.ReadPixels(0, 0, size_.x, size_.y, GL_RGBA, GL_UNSIGNED_BYTE, bottom_up.data());
+    const auto row = static_cast<std::ptrdiff_t>(4 * size_.x);
+    for (int y = size_.y - 1; y >= 0; --y)
+      out.insert(out.end(), bottom_up.begin() + y * row, bottom_up.begin() + (y + 1) * row);
+    return out;
+  }
+
+private:
+  template <class Function>
+  void find(Function& function, const char* name) {
+    function = reinterpret_cast<Function>(dlsym(library_, name));
+    if (function == nullptr) throw std::runtime_error(std::string("libOSMesa has no ") + name);
+  }
+
+  void* library_ = nullptr;
+  void* context_ = nullptr;
+  void* (*create_)(const int*, void*) = nullptr;
+  unsigned char (*make_current_)(void*, void*, unsigned, int, int) = nullptr;
+  void (*destroy_)(void*) = nullptr;
+  static inline void* (*get_proc_)(const char*) = nullptr;
+  Gl gl_;
+  ivec2 size_{0};
+  std::vector<std::uint8_t> memory_;
+};
+
+/// A folder of its own for one test, removed at its end.
+class ScratchFolder {
+public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "candela-window-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder for the test's files");
+    path_ = name;
+  }
+  ~ScratchFolder() { std::filesystem::remove_all(path_); }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+};
+
+/// A room of five coloured walls, a lamp, a glossy ball and a small point light.
+inline Document test_document() {
+  Document document;
+  SceneDesc& scene = document.scene;
+  auto material = [&](const char* name, vec3 diffuse) {
+    Material m;
+    m.name = name;
+    m.diffuse = diffuse;
+    scene.materials.push_back(m);
+    return static_cast<int>(scene.materials.size()) - 1;
+  };
+  auto wall = [&](const char* name, int index, vec3 position, float angle, vec3 axis, float size) {
+    const mat4 turned = glm::rotate(glm::translate(mat4(1), position), angle, axis);
+    scene.instances.push_back({name, RectangleShape{}, glm::scale(turned, vec3(size)), {index}});
+  };
+  const int white = material("white", vec3(0.73f));
+  const int red = material("red", {0.63f, 0.065f, 0.05f});
+  const int green = material("green", {0.14f, 0.45f, 0.091f});
+  const int lamp = material("lamp", vec3(0.78f));
+  const int ball = material("ball", vec3(0.2f));
+  scene.materials[static_cast<std::size_t>(lamp)].emission = {17, 12, 5};
+  Material& gloss = scene.materials[static_cast<std::size_t>(ball)];
+  gloss.type = MaterialType::phong;
+  gloss.specular = vec3(0.6f);
+  const vec3 x(1, 0, 0), y(0, 1, 0);
+  wall("floor", white, {0, -1, 0}, -kPi / 2, x, 1);
+  wall("ceiling", white, {0, 1, 0}, kPi / 2, x, 1);
+  wall("back", white, {0, 0, -1}, 0, y, 1);
+  wall("left", red, {-1, 0, 0}, kPi / 2, y, 1);
+  wall("right", green, {1, 0, 0}, -kPi / 2, y, 1);
+  wall("lamp", lamp, {0, 0.999f, 0}, kPi / 2, x, 0.25f);
+  scene.instances.push_back(
+      {"ball", SphereShape{0.4f}, glm::translate(mat4(1), vec3(0.2f, -0.6f, 0.1f)), {ball}});
+  LightDesc point;
+  point.name = "spark";
+  point.position = {-0.6f, 0.2f, 0.5f};
+  point.color = vec3(0.2f);
+  scene.lights.push_back(point);
+  scene.camera.position = {0, 0, 3.6f};
+  scene.camera.vertical_fov = radians(40.0f);
+  document.settings.film.width = 64;
+  document.settings.film.height = 48;
+  document.settings.stop.spp = 2;
+  return document;
+}
+
+struct HarnessOptions {
+  ivec2 size{1280, 720};
+  float scale = 1;
+  bool fit_film = false; ///< a small fixed film keeps the tests quick
+  std::filesystem::path screenshot_folder = ".";
+};
+
+class ViewerHarness {
+public:
+  explicit ViewerHarness(Document document = test_document(), const HarnessOptions& options = {})
+      : viewer(context_.gl(), viewer_options(std::move(document), options)) {
+    resize(options.size, options.scale);
+    frame(3);
+  }
+
+  // Time and pictures.
+
+  void frame(int count = 1, double seconds = 1 / 30.0) {
+    for (int i = 0; i < count; ++i) viewer.frame(clock_ += seconds);
+    EXPECT_EQ(context_.gl().GetError(), static_cast<GLenum>(GL_NO_ERROR));
+  }
+  /// Long enough that the next click is not the second one of a double click.
+  void pause() { frame(5, 0.1); }
+
+  /// Until the newest Document is rendered and on the screen.
+  void wait_for_picture(double seconds = 60) {
+    ASSERT_TRUE(viewer.session().wait_finished(seconds)) << "the picture did not get ready";
+    frame(2);
+  }
+
+  /// Frames until `done` or, a failure, for 30 seconds.
+  template <class Condition>
+  void wait_until(const char* what, Condition done) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!done()) {
+      ASSERT_LT(std::chrono::steady_clock::now(), end) << "waited in vain until " << what;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      frame();
+    }
+  }
+
+  std::vector<std::uint8_t> pixels() const { return context_.pixels(); }
+  ivec2 size() const { return context_.size(); }
+
+  /// Leaves what is on the screen in screenshots/<name>.png of the tests' working folder.
+  void screenshot(const std::string& name) const {
+    std::filesystem::create_directories("screenshots");
+    const std::vector<std::uint8_t> rgba = pixels();
+    std::vector<std::uint8_t> rgb;
+    for (std::size_t i = 0; i < rgba.size(); i += 4)
+      rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+    write_srgb8_image(size().x, size().y, rgb, "screenshots/" + name + ".png");
+  }
+
+  // The hand. Each step is shown in a frame of its own.
+
+  void send(Event event) {
+    viewer.handle(std::move(event));
+    frame();
+    while (viewer.has_pending_events()) frame();
+  }
+  void resize(ivec2 size, float scale = 1) {
+    context_.resize(glm::max(size, ivec2(1)));
+    send(Resized{size, scale});
+  }
+  void move(vec2 to) { send(MouseMoved{to}); }
+  void press(MouseButton button = MouseButton::left) { send(MouseButtonChanged{button, true}); }
+  void release(MouseButton button = MouseButton::left) { send(MouseButtonChanged{button, false}); }
+  void click(vec2 at) {
+    pause();
+    move(at);
+    press();
+    release();
+  }
+  void double_click(vec2 at) {
+    click(at);
+    press();
+    release();
+  }
+  void drag(vec2 from, vec2 to) {
+    pause();
+    move(from);
+    press();
+    move(0.5f * (from + to));
+    move(to);
+    release();
+  }
+  void scroll(vec2 at, float notches) {
+    move(at);
+    send(MouseScrolled{{0, notches}});
+  }
+  void key_down(Key key) { send(KeyChanged{key, true}); }
+  void key_up(Key key) { send(KeyChanged{key, false}); }
+  void key(Key key) {
+    key_down(key);
+    key_up(key);
+  }
+  void type(const std::string& text) {
+    for (char c : text) send(TextTyped{static_cast<char32_t>(c)});
+  }
+
+  // Widgets by name.
+
+  const WidgetRecord* find(const std::string& name) const {
+    for (const WidgetRecord& widget : viewer.widgets())
+      if (widget.name == name) return &widget;
+    return nullptr;
+  }
+  static bool is_visible(const WidgetRecord& w) {
+    return w.lo.x >= w.clip_lo.x - 1 && w.lo.y >= w.clip_lo.y - 1 && w.hi.x <= w.clip_hi.x + 1 &&
+           w.hi.y <= w.clip_hi.y + 1 && w.hi.y > w.lo.y;
+  }
+  /// Scrolls the panels until the widget is to be seen, and returns its middle.
+  vec2 reveal(const std::string& name) {
+    for (int i = 0; i < 300; ++i) {
+      const WidgetRecord* widget = find(name);
+      if (widget == nullptr) break;
+      if (is_visible(*widget)) return 0.5f * (widget->lo + widget->hi);
+      const WidgetRecord* column = find("panel.statistics"); // its left margin belongs to no list
+      const float x = column->lo.x - 1;
+      scroll({x, 300}, widget->lo.y < widget->clip_lo.y + 1 ? 1.0f : -1.0f);
+      frame();
+    }
+    ADD_FAILURE() << name << " is nowhere to be seen";
+    return vec2(-1);
+  }
+  void click(const std::string& name) { click(reveal(name)); }
+  void double_click(const std::string& name) { double_click(reveal(name)); }
+  /// Opens a fold unless it shows `inside` already.
+  void unfold(const std::string& section, const std::string& inside) {
+    if (find(inside) == nullptr) click(section);
+    frame(2);
+    ASSERT_NE(find(inside), nullptr) << section << " has no " << inside;
+  }
+  /// Unfolds every section and group.
+  void unfold_all() {
+    unfold("panel.statistics", "statistics.progress");
+    unfold("panel.display", "display.exposure");
+    unfold("panel.camera", "camera.vertical_fov");
+    unfold("panel.render", "group.path");
+    unfold("group.path", "path.max_depth");
+    unfold("group.sampler", "sampler.type");
+    unfold("group.stop", "stop.spp");
+    unfold("group.film", "film.width");
+    unfold("group.override", "override.brdf");
+    unfold("panel.materials", "material.type");
+    if (find("light.type") == nullptr && find("emitter.emission.r") == nullptr) click("panel.lights");
+    unfold("panel.scenes", "scene.path");
+  }
+  /// Ctrl+click, type, Enter.
+  void type_into(const std::string& name, const std::string& text) {
+    begin_typing(name);
+    type(text);
+    key(Key::enter);
+    frame();
+  }
+  void begin_typing(const std::string& name) {
+    const vec2 at = reveal(name);
+    key_down(Key::left_control);
+    click(at);
+    key_up(Key::left_control);
+  }
+  /// Opens a choice and clicks one of its items.
+  void choose(const std::string& name, const std::string& item) {
+    click(name);
+    frame(2);
+    click(name + "/" + item);
+    frame(2);
+  }
+
+  const ViewerState& state() const { return viewer.state(); }
+  const Document& document() const { return viewer.state().document; }
+
+private:
+  static ViewerOptions viewer_options(Document document, const HarnessOptions& options) {
+    ViewerOptions out;
+    out.document = std::move(document);
+    out.fit_film = options.fit_film;
+    out.screenshot_folder = options.screenshot_folder;
+    out.threads = 2;
+    return out;
+  }
+
+  OffscreenContext context_;
+  double clock_ = 100;
+
+public:
+  Viewer viewer; // after the context that it draws in
+};
+
+} // namespace candela::test
