@@ -1,0 +1,35 @@
+#pragma once
+// How far a picture is from a reference.
+
+#include "scene/mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace candela {
+
+/// Means over all pixels and channels, summed in double. Pixels of which a channel is NaN or infinite in
+/// either picture count for nothing but `nonfinite` (FLIP and PSNR show them: black or white).
+struct ComparisonResult {
+  double rel_mse = 0; ///< mean of (x - r)^2 / (r^2 + 0.01)
+  double mse = 0;     ///< mean of (x - r)^2
+  double psnr = 0; ///< dB, of the pictures clipped to [0, 1] and encoded as sRGB, peak 1; infinite if equal
+  double flip = 0; ///< mean of flip_map (render/flip.h)
+  std::array<double, 3> mean_ratio{}; ///< per channel, sum of x over sum of r; 1 if both are 0
+  std::int64_t nonfinite = 0;         ///< pixels that are not finite in the picture or the reference
+  double largest_relative_error = 0;  ///< of relative_error, over finite pixels
+};
+
+/// The sizes must be equal.
+ComparisonResult compare_images(const Image& image, const Image& reference);
+
+/// The root of a pixel's share of relMSE: sqrt(mean over channels of (x - r)^2 / (r^2 + 0.01)).
+double relative_error(vec3 x, vec3 r);
+
+/// relative_error of every pixel as a picture, 8-bit sRGB, three bytes a pixel: black at 0.1 % or less, by
+/// decades through magma to light yellow at 100 % or more; pixels that are not finite are cyan, which the map
+/// does not hold.
+std::vector<std::uint8_t> relative_error_picture(const Image& image, const Image& reference);
+
+} // namespace candela

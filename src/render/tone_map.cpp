@@ -1,0 +1,172 @@
+#include "render/tone_map.h"
+
+#include "core/color.h"
+
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstring>
+
+namespace candela {
+
+namespace {
+
+// sRGB by table -----------------------------------------------------------------------------------------
+//
+// The 255 floats at which the rounded code changes lie at least 2^-7 of their octave apart, so that a bucket
+// of floats that share sign, exponent and 7 bits of mantissa holds at most one of them. A bucket's entry is
+//   (code at its start) * 2^16 + 2^16 - t,
+// where t is the place of the change in the bucket, from 0 to 2^16 (none): adding a float's low 16 bits
+// carries into the code exactly from t on. (The idea of a table over the upper bits is Giesen's, "Linear to
+// sRGB", 2012; his interpolates and is off by one at times.)
+
+constexpr float kSmallest = 0x1p-13f; // its code is 0
+constexpr std::uint32_t kFirstBucket = std::bit_cast<std::uint32_t>(kSmallest) >> 16;
+constexpr std::uint32_t kBuckets = (std::bit_cast<std::uint32_t>(1.0f) >> 16) - kFirstBucket;
+
+/// The smallest float whose rounded code is at least `code`.
+float code_threshold(int code) {
+  double s = (code - 0.5) / 255.0;
+  double x = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+  float rounded = static_cast<float>(x);
+  return static_cast<double>(rounded) >= x ? rounded : std::nextafter(rounded, kInfinity);
+}
+
+std::array<std::uint32_t, kBuckets> make_srgb_table() {
+  std::array<std::uint32_t, kBuckets> table{};
+  int code = 0;
+  std::uint32_t next = std::bit_cast<std::uint32_t>(code_threshold(1));
+  for (std::uint32_t i = 0; i < kBuckets; ++i) {
+    std::uint32_t begin = (kFirstBucket + i) << 16;
+    bool changes = code < 255 && next - begin < 0x10000;
+    table[i] = (static_cast<std::uint32_t>(code) << 16) + (changes ? 0x10000 - (next - begin) : 0);
+    if (changes && ++code < 255) next = std::bit_cast<std::uint32_t>(code_threshold(code + 1));
+  }
+  assert(code == 255);
+  return table;
+}
+
+const std::array<std::uint32_t, kBuckets> kSrgbTable = make_srgb_table();
+
+/// Into the table's range; NaN to its start.
+inline float clip(float x) {
+  x = x > kSmallest ? x : kSmallest;
+  return x < kOneMinusEpsilon ? x : kOneMinusEpsilon;
+}
+
+/// The code of a clipped value.
+inline std::uint8_t encode(float x, const std::uint32_t* table) {
+  std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
+  return static_cast<std::uint8_t>((table[(bits >> 16) - kFirstBucket] + (bits & 0xffff)) >> 16);
+}
+
+// Curves ------------------------------------------------------------------------------------------------
+
+/// Far above every white point, far below where the curves' squares overflow.
+constexpr float kLargest = 1e15f;
+
+inline float exposed(float x, float factor) {
+  x *= factor;
+  x = x > 0 ? x : 0; // NaN too
+  return x < kLargest ? x : kLargest;
+}
+
+inline vec3 reinhard(vec3 color, float inverse_white_squared) {
+  float l = luminance(color);
+  return color * ((1 + l * inverse_white_squared) / (1 + l));
+}
+
+constexpr float hable(float x) {
+  constexpr float a = 0.15f, b = 0.50f, c = 0.10f, d = 0.20f, e = 0.02f, f = 0.30f;
+  return (x * (a * x + c * b) + d * e) / (x * (a * x + b) + d * f) - e / f;
+}
+constexpr float kHableScale = 1 / hable(11.2f);
+
+inline float filmic(float x) { return hable(2 * x) * kHableScale; }
+
+/// What the settings mean, worked out once for a picture.
+struct Curve {
+  explicit Curve(const DisplaySettings& display)
+      : kind(display.tone_map), factor(std::exp2(display.exposure)),
+        inverse_white_squared(1 / sqr(display.white_point)) {}
+  ToneMap kind;
+  float factor;
+  float inverse_white_squared;
+};
+
+/// Block by block: the curve to floats, the floats to bytes; the loops are plain enough to be vectorised.
+constexpr std::size_t kBlock = 256;
+struct Block {
+  std::array<float, 3 * kBlock> linear;
+  std::array<std::uint8_t, 3 * kBlock + 1> code; // one more to read the last pixel as four bytes
+};
+
+void map_block(const vec3* in, std::size_t pixels, const Curve& curve, Block& block) {
+  static_assert(sizeof(vec3) == 3 * sizeof(float));
+  std::size_t count = 3 * pixels;
+  float* linear = block.linear.data();
+  std::memcpy(linear, in, count * sizeof(float));
+  for (std::size_t i = 0; i < count; ++i) linear[i] = exposed(linear[i], curve.factor);
+  if (curve.kind == ToneMap::reinhard)
+    for (std::size_t i = 0; i < count; i += 3) {
+      vec3 color = reinhard({linear[i], linear[i + 1], linear[i + 2]}, curve.inverse_white_squared);
+      linear[i] = color.x, linear[i + 1] = color.y, linear[i + 2] = color.z;
+    }
+  else if (curve.kind == ToneMap::filmic)
+    for (std::size_t i = 0; i < count; ++i) linear[i] = filmic(linear[i]);
+  // A loop of its own: g++ would make branches of it beside the look-up, and guess them wrong.
+  for (std::size_t i = 0; i < count; ++i) linear[i] = clip(linear[i]);
+  const std::uint32_t* table = kSrgbTable.data();
+  for (std::size_t i = 0; i < count; ++i) block.code[i] = encode(linear[i], table);
+}
+
+template <class Store>
+void map_blocks(std::span<const vec3> linear, const DisplaySettings& display, Store store) {
+  Curve curve(display);
+  Block block;
+  block.code.back() = 0;
+  for (std::size_t at = 0; at < linear.size(); at += kBlock) {
+    std::size_t pixels = std::min(kBlock, linear.size() - at);
+    map_block(linear.data() + at, pixels, curve, block);
+    store(at, pixels, block.code.data());
+  }
+}
+
+} // namespace
+
+vec3 tone_mapped(vec3 linear, const DisplaySettings& display) {
+  Curve curve(display);
+  vec3 color(exposed(linear.x, curve.factor), exposed(linear.y, curve.factor),
+             exposed(linear.z, curve.factor));
+  switch (curve.kind) {
+  case ToneMap::reinhard: return reinhard(color, curve.inverse_white_squared);
+  case ToneMap::filmic: return {filmic(color.x), filmic(color.y), filmic(color.z)};
+  case ToneMap::srgb: break;
+  }
+  return color;
+}
+
+std::uint8_t srgb8_from_linear(float x) { return encode(clip(x), kSrgbTable.data()); }
+
+void tone_map_rgb8(std::span<const vec3> linear, const DisplaySettings& display,
+                   std::span<std::uint8_t> rgb) {
+  assert(rgb.size() >= 3 * linear.size());
+  map_blocks(linear, display, [&](std::size_t at, std::size_t pixels, const std::uint8_t* code) {
+    std::memcpy(rgb.data() + 3 * at, code, 3 * pixels);
+  });
+}
+
+void tone_map_rgba8(std::span<const vec3> linear, const DisplaySettings& display,
+                    std::span<std::uint8_t> rgba) {
+  assert(rgba.size() >= 4 * linear.size());
+  map_blocks(linear, display, [&](std::size_t at, std::size_t pixels, const std::uint8_t* code) {
+    for (std::size_t i = 0; i < pixels; ++i) { // little-endian: the fourth byte is the uppermost
+      std::uint32_t pixel = 0;
+      std::memcpy(&pixel, code + 3 * i, 4);
+      pixel |= 0xff000000u;
+      std::memcpy(rgba.data() + 4 * (at + i), &pixel, 4);
+    }
+  });
+}
+
+} // namespace candela

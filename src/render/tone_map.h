@@ -1,0 +1,34 @@
+#pragma once
+// From linear radiance to what a screen shows. The window and the 8-bit files use the same code.
+
+#include "core/math.h"
+#include "scene/document.h"
+
+#include <cstdint>
+#include <span>
+
+namespace candela {
+
+/// The display-referred linear colour, not yet encoded; above 1 it will be clipped. First the exposure (a
+/// factor of 2^stops), then
+///   reinhard: L (1 + L / w^2) / (1 + L) of the luminance, the colour scaled along (Reinhard, Stark, Shirley
+///             and Ferwerda, "Photographic Tone Reproduction for Digital Images", SIGGRAPH 2002, eq. 4);
+///   filmic:   Hable's curve of "Uncharted 2" per channel (Hable, "Uncharted 2: HDR Lighting", GDC 2010),
+///   with
+///             its exposure bias of 2 and its linear white of 11.2, so that 5.6 becomes white;
+///   srgb:     nothing.
+/// Negative and NaN channels count as 0, infinite ones as very large: both stay visible as black and white
+/// spots, and are counted elsewhere.
+vec3 tone_mapped(vec3 linear, const DisplaySettings& display);
+
+/// round(255 s) with s the sRGB encoding (IEC 61966-2-1) of x clipped to [0, 1]: the correctly rounded result
+/// for every float, by one table look-up. NaN gives 0.
+std::uint8_t srgb8_from_linear(float x);
+
+/// tone_mapped, then srgb8_from_linear, for every pixel. The output has 3 (4) bytes a pixel, alpha is 255.
+/// Callable for parts of a picture from several threads.
+void tone_map_rgb8(std::span<const vec3> linear, const DisplaySettings& display, std::span<std::uint8_t> rgb);
+void tone_map_rgba8(std::span<const vec3> linear, const DisplaySettings& display,
+                    std::span<std::uint8_t> rgba);
+
+} // namespace candela
