@@ -131,16 +131,35 @@ void to_rec709(Image& image, const Imf::Header& header, const Location& where) {
   for (vec3& pixel : image.pixels) pixel = vec3(m * glm::dvec3(pixel));
 }
 
-/// The directory of offsets alone takes 8 bytes for every block of at most 256 scan lines (DWAB), or tile.
+/// The most that a compression makes of a byte; 0 where a block of zeros takes next to nothing.
+std::int64_t largest_expansion(Imf::Compression compression) {
+  switch (compression) {
+  case Imf::NO_COMPRESSION: return 1;
+  case Imf::RLE_COMPRESSION: return 64; // two bytes for a run of 128
+  case Imf::ZIPS_COMPRESSION:
+  case Imf::ZIP_COMPRESSION:
+  case Imf::PXR24_COMPRESSION: return 1032; // deflate's
+  default: return 0;
+  }
+}
+
+/// Refuses headers that claim more than the file can hold, before pixels are allocated.
 void check_plausible(const Imf::Header& header, std::size_t bytes, std::int64_t width, std::int64_t height,
                      const Location& where) {
+  // The directory of offsets alone takes 8 bytes for every block of at most 256 scan lines (DWAB), or tile.
   std::int64_t blocks = height / 256;
   if (header.hasTileDescription()) {
     const Imf::TileDescription& tile = header.tileDescription();
     blocks = (width / std::max(std::int64_t{1}, std::int64_t{tile.xSize})) *
              (height / std::max(std::int64_t{1}, std::int64_t{tile.ySize}));
   }
-  if (static_cast<std::int64_t>(bytes) / 8 < blocks)
+  std::int64_t pixel_bytes = 0; // PXR24 keeps 3 bytes of a float
+  for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
+    if (i.channel().xSampling == 1 && i.channel().ySampling == 1)
+      pixel_bytes += i.channel().type == Imf::HALF ? 2 : 3;
+  std::int64_t expansion = largest_expansion(header.compression());
+  std::int64_t size = static_cast<std::int64_t>(bytes);
+  if (size / 8 < blocks || (expansion > 0 && size < width * height * pixel_bytes / expansion))
     throw damaged_image(where, "the EXR is too short for the size it claims");
 }
 

@@ -34,7 +34,6 @@ bool is_bmp(ByteView bytes) { return bytes.size() >= 2 && bytes[0] == 'B' && byt
 
 /// Uncompressed rows that the file does not hold would be read as whatever the memory held before.
 void check_tga(ByteView bytes, const Location& where, std::int64_t pixels) {
-  if (bytes.size() < 18) throw damaged_image(where, "the TGA ends within its header");
   bool run_length = (bytes[2] & 8) != 0;
   std::int64_t bytes_per_pixel = (bytes[16] + 7) / 8;
   // A run-length packet makes at most 128 pixels.
@@ -60,6 +59,10 @@ Error undecodable(const Location& where) {
 std::pair<int, int> check_stb(ByteView bytes, const Location& where, bool tga) {
   if (is_png(bytes)) check_png(bytes, where);
   if (is_jpg(bytes)) check_jpg(bytes, where);
+  bool is_tga = tga && !is_stb_format(bytes);
+  // No other format that stb_image would find has such a second byte (TGA's kind of colour map), so that none
+  // gets past its own check by the ending .tga.
+  if (is_tga && (bytes.size() < 18 || bytes[1] > 1)) throw damaged_image(where, "it is no TGA");
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) == 0)
     throw undecodable(where);
@@ -69,7 +72,7 @@ std::pair<int, int> check_stb(ByteView bytes, const Location& where, bool tga) {
   if (is_jpg(bytes) && static_cast<std::int64_t>(bytes.size()) < pixels / 512)
     throw damaged_image(where, "the JPEG is too short for the size it claims");
   if (is_bmp(bytes)) check_bmp(bytes, where, pixels);
-  if (tga && !is_stb_format(bytes)) check_tga(bytes, where, pixels);
+  if (is_tga) check_tga(bytes, where, pixels);
   return {width, height};
 }
 

@@ -152,6 +152,22 @@ TEST(ImageHostile, WhatIsNoPictureIsRefused) {
   EXPECT_EQ(outcome("/dev/zero"), ExitCode::bad_input);
 }
 
+TEST(ImageHostile, AHuffmanTableWithTooManyCodesIsRefused) {
+  ScratchFolder folder;
+  write_every_format(folder, 33, 21);
+  std::string jpg = test::read_text(folder / "a.jpg");
+  auto table = jpg.find("\xff\xc4");
+  ASSERT_NE(table, std::string::npos);
+  jpg.replace(table + 5, 16, 16, '\xff'); // 16 * 255 codes
+  test::write_text(folder / "b.jpg", jpg);
+  EXPECT_EQ(outcome(folder / "b.jpg"), ExitCode::bad_input);
+  // A fill byte before the first marker is allowed, and such a file is known by nobody but stb_image.
+  for (const char* name : {"c.jpg", "c.tga"}) {
+    test::write_text(folder / name, "\xff" + jpg);
+    EXPECT_EQ(outcome(folder / name), ExitCode::bad_input);
+  }
+}
+
 TEST(ImageHostile, KnownMalformedFiles) {
   fs::path folder = fs::path(CANDELA_SHARED_DATA) / "malformed";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
