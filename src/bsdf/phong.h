@@ -1,8 +1,8 @@
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
-#include "core/color.h"
 #include "core/basis.h"
+#include "core/color.h"
 #include "sampling/warp.h"
 
 namespace candela {
@@ -24,7 +24,8 @@ struct Phong {
   BsdfEval eval_pdf(vec3 wo, vec3 wi) const {
     if (!same_hemisphere(wo, wi)) return {vec3(0), 0};
     float cos_alpha = std::max(glm::dot(reflect_about_normal(wo), wi), 0.0f);
-    float lobe = std::pow(std::min(cos_alpha, 1.0f), exponent) * (0.5f * kInvPi);
+    float lobe =
+        cos_alpha > 0 ? std::pow(std::min(cos_alpha, 1.0f), exponent) * (0.5f * kInvPi) : 0; // 0^0 is 0 here
     float cos_theta_i = std::abs(wi.z);
     float p = specular_probability();
     vec3 f = diffuse * kInvPi + specular * ((exponent + 2) * lobe);

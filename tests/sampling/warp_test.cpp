@@ -109,8 +109,7 @@ TEST(WarpStatistical, DirectionsHaveTheirDensities) {
   std::uint64_t stream = 10;
   for (const Case& c : cases) {
     Uniform u(stream++);
-    // Rings of 1/20 of the sphere's height each: the cap's edge and the horizon are edges of bins.
-    SphereBins bins({0, 0, 1}, 1, 20, 32);
+    SphereBins bins;
     DirectionTest t = test_directions(
         bins, kDraws, [&](std::size_t) { return c.warp(u.two()); }, c.pdf);
     EXPECT_GT(t.chi_square.p_value, sidak_threshold(std::size(cases))) << c.name;

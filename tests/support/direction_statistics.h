@@ -10,32 +10,43 @@
 
 namespace candela::test {
 
-/// Bins of the unit sphere: rings about an axis times equal sectors. Rings are equal in s, with tan(theta /
-/// 2) = width sqrt(s / (1 - s)): half of them lie within tan(theta / 2) < width / sqrt 2 of the axis, so that
-/// the width of a narrow lobe fits the bins and quadrature to it. width = 1 makes all bins of equal solid
-/// angle.
+/// Bins of the unit sphere: rings about +z times sectors of azimuth, crowded around `peak` so that they fit a
+/// lobe of angular `width` (radians) there; both angles are spaced by a Cauchy distribution, so the tails
+/// have bins, too. The horizon z = 0 is an edge of bins; three in four rings are on peak's side of it.
 class SphereBins {
 public:
-  SphereBins(vec3 axis, double width, int rings = 16, int sectors = 32);
+  explicit SphereBins(vec3 peak = {0, 0, 1}, double width = 2, int rings = 20, int sectors = 32);
 
   std::size_t size() const { return static_cast<std::size_t>(rings_ * sectors_); }
   std::size_t index(vec3 w) const;
   /// Of a function of unit directions over each bin, sr: adaptive Gauss-Legendre, absolute error of a bin
   /// some `tolerance` (edges of the function within a bin are found by subdivision).
-  std::vector<double> integrate(const std::function<double(vec3)>& f, double tolerance = 1e-6) const;
+  std::vector<double> integrate(const std::function<double(vec3)>& f, double tolerance = 3e-6) const;
 
 private:
-  double integrate_cell(const std::function<double(vec3)>& f, double s0, double s1, double phi0, double phi1,
-                        double tolerance, int depth) const;
-  double gauss(const std::function<double(vec3)>& f, double s0, double s1, double phi0, double phi1) const;
+  /// x in [lo, hi], spaced as the quantiles of a Cauchy distribution about m that is cut off there.
+  struct Spacing {
+    double lo, hi, m, width;
+    double quantile(double s) const;
+    double density(double x) const; ///< ds / dx
+    double cdf(double x) const;
+  };
+  struct Cell {
+    const Spacing* theta;
+    double s0, s1, t0, t1; ///< quantiles of theta and of phi
+  };
+  double gauss(const std::function<double(vec3)>& f, const Cell& cell) const;
+  double integrate_cell(const std::function<double(vec3)>& f, const Cell& cell, double tolerance,
+                        int depth) const;
 
-  glm::dvec3 x_, y_, z_;
-  double width_;
-  int rings_, sectors_;
+  double side_; ///< of peak: +1 above the horizon, -1 below; theta counts from side_ * z
+  int rings_, sectors_, rings_on_side_;
+  Spacing theta_on_side_, theta_beyond_, phi_; ///< phi from peak's azimuth
+  double peak_azimuth_;
 };
 
-/// Of f over the whole sphere, sr; axis and width say where most of it is.
-double integrate_sphere(const std::function<double(vec3)>& f, vec3 axis = {0, 0, 1}, double width = 1);
+/// Of f over the whole sphere, sr; peak and width (as of SphereBins) say where most of it is.
+double integrate_sphere(const std::function<double(vec3)>& f, vec3 peak = {0, 0, 1}, double width = 2);
 
 struct DirectionTest {
   ChiSquareResult chi_square;
@@ -43,7 +54,8 @@ struct DirectionTest {
 };
 
 /// `draw(i)` gives the i-th of `count` independent directions, or nothing where sampling fails (a bin of its
-/// own); `pdf` is its density in 1/sr, integrating to at most 1.
+/// own); `pdf` is its density in 1/sr, integrating to at most 1; a draw
+/// where it is 0 gives p = 0.
 DirectionTest test_directions(const SphereBins& bins, std::size_t count,
                               const std::function<std::optional<vec3>(std::size_t)>& draw,
                               const std::function<double(vec3)>& pdf);
