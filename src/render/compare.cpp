@@ -4,6 +4,8 @@
 #include "render/color_map.h"
 #include "render/flip.h"
 
+#include <fmt/format.h>
+
 #include <cassert>
 
 namespace candela {
@@ -32,6 +34,8 @@ double relative_error(vec3 x, vec3 r) {
 ComparisonResult compare_images(const Image& image, const Image& reference) {
   assert(image.width == reference.width && image.height == reference.height);
   ComparisonResult result;
+  result.width = image.width;
+  result.height = image.height;
   double encoded_squares = 0;
   std::array<double, 3> sum_x{}, sum_r{};
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -63,6 +67,25 @@ ComparisonResult compare_images(const Image& image, const Image& reference) {
   for (float error : flip_map(image, reference)) sum += static_cast<double>(error);
   result.flip = sum / static_cast<double>(image.pixels.size());
   return result;
+}
+
+std::string comparison_json(const ComparisonResult& result) {
+  auto number = [](double v) { return std::isfinite(v) ? fmt::format("{}", v) : std::string("null"); };
+  return fmt::format(R"({{
+  "width": {},
+  "height": {},
+  "relMSE": {},
+  "MSE": {},
+  "PSNR": {},
+  "FLIP": {},
+  "mean_ratio": [{}, {}, {}],
+  "largest_relative_error": {},
+  "nonfinite_pixels": {}
+}})",
+                     result.width, result.height, number(result.rel_mse), number(result.mse),
+                     number(result.psnr), number(result.flip), number(result.mean_ratio[0]),
+                     number(result.mean_ratio[1]), number(result.mean_ratio[2]),
+                     number(result.largest_relative_error), result.nonfinite);
 }
 
 std::vector<std::uint8_t> relative_error_picture(const Image& image, const Image& reference) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace candela {
@@ -12,6 +13,8 @@ namespace candela {
 /// Means over all pixels and channels, summed in double. Pixels of which a channel is NaN or infinite in
 /// either picture count for nothing but `nonfinite` (FLIP and PSNR show them: black or white).
 struct ComparisonResult {
+  int width = 0;
+  int height = 0;
   double rel_mse = 0; ///< mean of (x - r)^2 / (r^2 + 0.01)
   double mse = 0;     ///< mean of (x - r)^2
   double psnr = 0; ///< dB, of the pictures clipped to [0, 1] and encoded as sRGB, peak 1; infinite if equal
@@ -23,6 +26,10 @@ struct ComparisonResult {
 
 /// The sizes must be equal.
 ComparisonResult compare_images(const Image& image, const Image& reference);
+
+/// {"width": …, "relMSE": …, …}, indented by two spaces, without a final line break. JSON has no infinity:
+/// the PSNR of equal pictures is null, and so is a ratio to a black reference.
+std::string comparison_json(const ComparisonResult& result);
 
 /// The root of a pixel's share of relMSE: sqrt(mean over channels of (x - r)^2 / (r^2 + 0.01)).
 double relative_error(vec3 x, vec3 r);
