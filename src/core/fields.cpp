@@ -51,15 +51,15 @@ Error bad_value(const FieldInfo& field, std::string_view text) {
                      fmt::format("give {}", field_domain(field)));
 }
 
-/// Degrees that read back to the same float of radians, as short as may be ("45" for the float nearest to
-/// pi/4). Floats of degrees can lie farther apart than those of radians, so that some need more digits.
+/// Degrees that read back to the same float of radians, as short as may be: "45" for the float nearest to
+/// pi/4. A float of degrees would not do: they can lie farther apart than those of radians.
 std::string angle_text(float radians_value) {
   double deg = static_cast<double>(radians_value) * (180.0 / std::numbers::pi);
-  std::string text = fmt::format("{}", static_cast<float>(deg));
-  for (int digits = 8; digits <= 17; ++digits) {
+  std::string text;
+  for (int digits = 6; digits <= 17; ++digits) {
+    text = fmt::format("{:.{}g}", deg, digits);
     double read = 0;
     if (parse_number(text, read) && angle_value(read) == radians_value) break;
-    text = fmt::format("{:.{}g}", deg, digits);
   }
   return text;
 }

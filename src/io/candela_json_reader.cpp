@@ -1,6 +1,7 @@
 #include "io/candela_json.h"
 #include "io/json_fields.h"
 #include "io/json_mesh.h"
+#include "io/json_texture.h"
 #include "io/json_transform.h"
 #include "io/text_file.h"
 
@@ -141,40 +142,14 @@ private:
 
   void textures(JsonValue array) {
     each_object(array, "textures", [&](JsonValue object, const std::string& element) {
-      constexpr std::string_view kKeys[] = {"file", "name", "width", "height", "srgb"};
-      auto texture = std::make_shared<Texture>();
-      std::optional<JsonValue> file, srgb;
-      constexpr int kMaxSide = 65536;
-      for (auto it = object.begin(); it != object.end(); ++it) {
-        JsonValue key = *it, value = *++it;
-        std::string name = fmt::format("{}.{}", element, key.string());
-        if (key.string() == "file")
-          file = value;
-        else if (key.string() == "name")
-          texture->name = read_string(value, name);
-        else if (key.string() == "width")
-          texture->width = read_integer(value, name, 1, kMaxSide);
-        else if (key.string() == "height")
-          texture->height = read_integer(value, name, 1, kMaxSide);
-        else if (key.string() == "srgb")
-          srgb = value;
-        else
-          throw unknown_key(key, element, kKeys);
-      }
-      if (file) {
+      JsonTexture texture = read_json_texture(object, element);
+      if (texture.file) {
         std::string name = element + ".file";
-        builder_.append_texture(
-            builder_.policy().require(read_string(*file, name), folder_, file->where(), name));
-        return;
+        builder_.append_texture(builder_.policy().require(read_string(*texture.file, name), folder_,
+                                                          texture.file->where(), name));
+      } else {
+        document_.scene.textures.push_back(std::move(texture.inline_picture));
       }
-      std::size_t bytes =
-          3 * static_cast<std::size_t>(texture->width) * static_cast<std::size_t>(texture->height);
-      if (!srgb || srgb->type() != JsonType::array || bytes == 0 || srgb->size() != bytes)
-        throw input_error((srgb ? *srgb : object).where(), element, "it is no picture",
-                          "give a \"file\", or width, height and 3 width height bytes as \"srgb\"");
-      for (JsonValue byte : *srgb)
-        texture->srgb.push_back(static_cast<std::uint8_t>(read_integer(byte, element + ".srgb", 0, 255)));
-      document_.scene.textures.push_back(std::move(texture));
     });
   }
 
@@ -195,6 +170,7 @@ private:
       int index = builder_.add_material(material);
       auto [same_name, is_new] = material_by_name_.try_emplace(material.name, index);
       if (!is_new) same_name->second = kAmbiguous;
+      ++material_count_;
     });
   }
 
@@ -226,7 +202,7 @@ private:
     expect(object, JsonType::object, "meshes");
     for (auto it = object.begin(); it != object.end(); ++it) {
       JsonValue key = *it, value = *++it;
-      std::string element = fmt::format("meshes.{}", key.string());
+      std::string element = fmt::format("meshes.{}", key.string().substr(0, 60));
       expect(value, JsonType::object, element);
       std::string name = key.string();
       std::optional<JsonValue> file;
@@ -363,9 +339,7 @@ private:
       int& material = out.materials[slot];
       if (material < 0 && file) {
         material = builder_.imported_material(*file, slot);
-        if (material < 0)
-          builder_.warnings().add(where, fmt::format("{}: the slot '{}' has no material: a grey is taken",
-                                                     element, slots[slot].substr(0, 100)));
+        if (material < 0) material = builder_.missing_material(*file, slot, where);
       }
       if (material < 0) material = builder_.default_material();
     }
@@ -373,8 +347,7 @@ private:
 
   int material_of(JsonValue value, const std::string& element) {
     // By index only those of the file: imported ones come in an order that is nobody's promise.
-    if (value.type() == JsonType::number)
-      return read_integer(value, element, 0, static_cast<int>(material_count_in_file()) - 1);
+    if (value.type() == JsonType::number) return read_integer(value, element, 0, material_count_ - 1);
     std::string name = read_string(value, element);
     auto known = material_by_name_.find(name);
     if (known != material_by_name_.end() && known->second != kAmbiguous) return known->second;
@@ -385,16 +358,6 @@ private:
     std::vector<std::string_view> names;
     for (const auto& [key, index] : material_by_name_) names.push_back(key);
     throw missing(value, element, "material", name, names);
-  }
-
-  std::size_t material_count_in_file() const {
-    auto materials = tree_.root();
-    for (auto it = materials.begin(); it != materials.end(); ++it) {
-      bool here = (*it).string() == "materials";
-      ++it;
-      if (here) return (*it).size();
-    }
-    return 0;
   }
 
   static Error missing(JsonValue value, std::string_view element, std::string_view what,
@@ -413,6 +376,7 @@ private:
   Document document_;
   SceneBuilder builder_;
   std::map<std::string, int> material_by_name_;
+  int material_count_ = 0; ///< of the file's own, without imported ones
   std::map<std::string, NamedMesh> meshes_;
 };
 

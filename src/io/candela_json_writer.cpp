@@ -2,6 +2,7 @@
 #include "io/candela_json.h"
 #include "io/json_fields.h"
 #include "io/json_mesh.h"
+#include "io/json_texture.h"
 
 #include <fmt/format.h>
 
@@ -116,9 +117,7 @@ private:
     std::vector<std::string> out;
     for (const auto& texture : scene_.textures)
       out.push_back(texture->source.empty()
-                        ? fmt::format("{{\"name\": {}, \"width\": {}, \"height\": {}, \"srgb\": [{}]}}",
-                                      json_quoted(texture->name), texture->width, texture->height,
-                                      fmt::join(texture->srgb, ","))
+                        ? json_texture(*texture)
                         : fmt::format("{{\"file\": {}}}", json_quoted(texture_path(*texture))));
     return out;
   }

@@ -344,11 +344,7 @@ private:
     for (std::size_t slot = 0; slot < file.mesh->slot_names.size(); ++slot) {
       int material = builder_.imported_material(file, slot);
       if (material < 0) material = own_material(node, "mesh");
-      if (material < 0) {
-        values_.warnings().add(where, fmt::format("the faces of '{}' have no material: a grey is taken",
-                                                  file.mesh->slot_names[slot].substr(0, 100)));
-        material = builder_.default_material();
-      }
+      if (material < 0) material = builder_.missing_material(file, slot, where);
       instance.materials.push_back(material);
     }
   }

@@ -140,20 +140,15 @@ private:
                         "name it without a leading / and without .., or allow it with --allow-outside");
     std::vector<std::string> names = {name};
     if (name.starts_with(kUsualFolder)) names.push_back(name.substr(kUsualFolder.size()));
-    std::error_code failed;
-    fs::path folder = fs::weakly_canonical(fs::absolute(folder_of(path_)), failed);
-    std::string shown_folder = folder_of(path_);
+    std::string folder = folder_of(path_);
     std::vector<std::string> tried;
-    for (int level = 0; level <= kMaxLevels; ++level) {
+    for (int level = 0; level <= kMaxLevels; ++level, folder += "/..") {
+      PathPolicy policy(folder, allow_outside_);
       for (const std::string& candidate : names) {
         if (candidate.empty()) continue;
-        PathPolicy policy(folder.string(), allow_outside_);
-        if (auto found = policy.find(candidate, shown_folder, at(scene_), "scene")) return *found;
-        tried.push_back((fs::path(shown_folder) / candidate).lexically_normal().string());
+        if (auto found = policy.find(candidate, folder, at(scene_), "scene")) return *found;
+        tried.push_back((fs::path(folder) / candidate).lexically_normal().string());
       }
-      if (folder == folder.root_path()) break;
-      folder = folder.parent_path();
-      shown_folder = folder.string();
     }
     throw input_error(at(scene_), "scene",
                       fmt::format("there is no file '{}' (tried {})", name, fmt::join(tried, ", ")),

@@ -88,7 +88,7 @@ void ObjLines::check_reals(std::string_view key, std::string_view words, int at_
     ++count;
   }
   if (count < at_least)
-    throw input_error({file_, line_, static_cast<int>(current_.size()) + 1}, key,
+    throw input_error({file_, line_, static_cast<int>(current_.find_last_not_of(" \t")) + 2}, key,
                       fmt::format("{} of {} numbers", count, at_least), "give all of them");
   if (key == "v" && count >= 6) warnings_.add({file_, line_, 1}, "vertex colours are ignored");
 }

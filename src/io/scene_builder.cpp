@@ -87,6 +87,15 @@ int SceneBuilder::default_material() {
   return default_material_;
 }
 
+int SceneBuilder::missing_material(const MeshFile& file, std::size_t slot, const Location& where) {
+  const std::string& name = file.mesh->slot_names[slot];
+  constexpr std::size_t kLongestName = 100;
+  warnings_.add(where, name.empty() ? "faces without a material: a grey is taken"
+                                    : fmt::format("there is no material '{}': a grey is taken",
+                                                  name.substr(0, kLongestName)));
+  return default_material();
+}
+
 namespace {
 
 Bounds3 object_bounds(const Shape& shape) {

@@ -46,6 +46,8 @@ public:
 
   /// A grey one for what has no material, made when first asked for.
   int default_material();
+  /// The same for a slot that ought to have one, with a warning.
+  int missing_material(const MeshFile& file, std::size_t slot, const Location& where);
 
 private:
   std::string unused_material_name(const std::string& wish) const;

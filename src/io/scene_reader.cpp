@@ -21,11 +21,7 @@ Document read_obj_scene(const FoundFile& file, const PathPolicy& policy, Warning
   instance.shape = mesh.mesh;
   for (std::size_t slot = 0; slot < mesh.mesh->slot_names.size(); ++slot) {
     int material = builder.imported_material(mesh, slot);
-    if (material < 0) {
-      warnings.add({file.shown}, fmt::format("the faces of '{}' have no material: a grey is taken",
-                                             mesh.mesh->slot_names[slot].substr(0, 100)));
-      material = builder.default_material();
-    }
+    if (material < 0) material = builder.missing_material(mesh, slot, {file.shown});
     instance.materials.push_back(material);
   }
   document.scene.instances.push_back(std::move(instance));

@@ -1,0 +1,25 @@
+#pragma once
+// Entries of "textures" in Candela JSON.
+
+#include "io/json_tree.h"
+#include "scene/mesh.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace candela {
+
+struct JsonTexture {
+  std::optional<JsonValue> file; ///< the name of a picture file, or else:
+  std::shared_ptr<const Texture> inline_picture;
+};
+
+/// Reads {"file": …} or {"name", "width", "height", "srgb": [bytes]}. Throws input_error.
+JsonTexture read_json_texture(JsonValue object, std::string_view element);
+
+/// The object of a picture that came from no file.
+std::string json_texture(const Texture& texture);
+
+} // namespace candela
