@@ -54,6 +54,8 @@ std::string spp_text(const ViewerState& state) {
   return target > 0 ? fmt::format("{} of {}", state.status.spp, target) : fmt::format("{}", state.status.spp);
 }
 
+constexpr float kFirstCell = 26; // right of the dot, at scale 1
+
 constexpr ImGuiWindowFlags kPlainWindow = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                           ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                                           ImGuiWindowFlags_NoBringToFrontOnFocus;
@@ -81,8 +83,8 @@ void statistics_panel(Ui& ui, ViewerState& state) {
   ui.readout("non-finite", fmt::format("{}", status.nonfinite),
              "Samples whose radiance was NaN or infinite; they are left out and counted");
   ui.readout("window", fmt::format("{:.1f} ms", state.frame_ms), "CPU time of the window's last frame");
-  if (state.picture)
-    ui.readout("film", fmt::format("{} x {}", state.picture->width, state.picture->height), "pixels");
+  const FilmSettings& film = state.document.settings.film;
+  ui.readout("film", fmt::format("{} x {}", film.width, film.height), "pixels");
 }
 
 void panel_column(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
@@ -115,13 +117,13 @@ void status_line(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
         ImVec2(at.x + 4 * unit, at.y + 0.5f * ImGui::GetTextLineHeight()), 3.5f * unit,
         ImGui::GetColorU32(phase_color(status.phase)));
     // Each text has its own place, so that none moves when another grows.
-    auto cell = [&, x = 16 * unit](const std::string& text, float width) mutable {
+    auto cell = [&, x = kFirstCell * unit](const std::string& text, float width) mutable {
       ImGui::SameLine(x);
       ImGui::TextUnformatted(text.c_str());
       x += width * unit;
     };
     ImGui::Dummy(ImVec2(1, 1));
-    cell(phase_text(state), 76);
+    cell(phase_text(state), 80);
     cell(spp_text(state) + " spp", 118);
     cell(seconds_text(status.render_seconds), 80);
     cell(si(per_second(status.rays.samples, status.render_seconds)) + " samples/s", 138);
@@ -134,7 +136,8 @@ void status_line(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
     const char* keys = "F1 help    Tab panels";
     const float width = ImGui::CalcTextSize(keys).x;
     const float left = size.x - width - 10 * unit;
-    if (left > 16 * unit + 412 * unit + ImGui::CalcTextSize(talk.c_str()).x + 16 * unit) {
+    const float talk_end = (kFirstCell + 80 + 118 + 80 + 138) * unit + ImGui::CalcTextSize(talk.c_str()).x;
+    if (left > talk_end + 16 * unit) {
       ImGui::SameLine(left);
       ImGui::TextDisabled("%s", keys);
     }

@@ -81,8 +81,8 @@ void apply_style(float scale) {
   colors[ImGuiCol_ScrollbarGrabHovered] = grey(0.38f);
   colors[ImGuiCol_ScrollbarGrabActive] = grey(0.45f);
   colors[ImGuiCol_CheckMark] = accent;
-  colors[ImGuiCol_SliderGrab] = grey(0.50f);
-  colors[ImGuiCol_SliderGrabActive] = accent;
+  colors[ImGuiCol_SliderGrab] = grey(0.40f); // dark enough for the number over it
+  colors[ImGuiCol_SliderGrabActive] = ImVec4(0.60f, 0.43f, 0.20f, 1);
   colors[ImGuiCol_Button] = grey(0.25f);
   colors[ImGuiCol_ButtonHovered] = grey(0.32f);
   colors[ImGuiCol_ButtonActive] = grey(0.38f);

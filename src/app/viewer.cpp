@@ -228,7 +228,10 @@ void Viewer::open_scene(const std::string& path) {
           std::vector<std::string> warnings;
           for (const Warning& warning : scene->warnings) warnings.push_back(warning.text);
           install_scene(std::move(scene->document), path, std::move(warnings), bounds);
-          notify(fmt::format("Opened {}", path));
+          const std::size_t count = state_.warnings.size();
+          notify(count == 0 ? fmt::format("Opened {}", path)
+                            : fmt::format("Opened {} with {} warning{}: see Scenes", path, count,
+                                          count == 1 ? "" : "s"));
         };
       }
       problem = fmt::format("{}: {}", path, problem);

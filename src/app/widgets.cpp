@@ -80,8 +80,9 @@ bool Ui::section(const char* name, const char* label, bool open_at_first) {
 
 bool Ui::subsection(const char* name, const char* label, bool open_at_first) {
   ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0, 0, 0, 0));
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.68f, 0.68f, 0.68f, 1));
   const bool open = section(name, label, open_at_first);
-  ImGui::PopStyleColor();
+  ImGui::PopStyleColor(2);
   return open;
 }
 
@@ -93,14 +94,16 @@ bool Ui::button(const char* name, const char* label, std::string_view tip, float
 }
 
 bool Ui::item(const std::string& name, const char* label, bool selected) {
+  ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0.34f, 0.34f, 0.34f, 1));
   const bool pressed = ImGui::Selectable(fmt::format("{}##{}", label, name).c_str(), selected);
+  ImGui::PopStyleColor();
   record(name);
   return pressed;
 }
 
 bool Ui::choice(const char* name, const char* label, int& value, std::span<const std::string_view> choices,
                 std::string_view tip) {
-  label_cell(label, false);
+  label_cell(name, label, false);
   tooltip(tip);
   const bool changed = choice_widget(name, value, choices);
   tooltip(tip);
@@ -109,9 +112,10 @@ bool Ui::choice(const char* name, const char* label, int& value, std::span<const
 
 bool Ui::number(const char* name, const char* label, float& value, float lo, float hi, const char* format,
                 float initial, std::string_view tip) {
-  label_cell(label, value != initial);
+  label_cell(name, label, value != initial);
   bool reset = double_clicked_here();
   tooltip(tip);
+  ImGui::SameLine(kLabelWidth * scale_ + ImGui::GetStyle().WindowPadding.x);
   ImGui::SetNextItemWidth(-1);
   Scalar edited{false, 0, value};
   const NumberStyle style{false, true, true, lo, hi, 0, format};
@@ -139,7 +143,7 @@ void Ui::readout(const char* label, std::string_view value, std::string_view tip
   tooltip(tip);
 }
 
-void Ui::label_cell(std::string_view label, bool changed) {
+void Ui::label_cell(const std::string& name, std::string_view label, bool changed) {
   ImGui::AlignTextToFramePadding();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   if (changed) // a dot in the margin: not the default
@@ -147,7 +151,7 @@ void Ui::label_cell(std::string_view label, bool changed) {
         ImVec2(at.x - 5.5f * scale_, at.y + 0.5f * ImGui::GetFrameHeight()), 2.2f * scale_,
         ImGui::GetColorU32(ImGuiCol_CheckMark));
   ImGui::TextUnformatted(label.data(), label.data() + label.size());
-  // The cursor's next place in the row is fixed, so that widgets stand in a column.
+  record(name + "#label");
 }
 
 bool Ui::double_clicked_here() const {
@@ -178,7 +182,7 @@ bool Ui::choice_widget(const std::string& name, int& value, std::span<const std:
 
 bool Ui::field(const std::string& name, const FieldInfo& row, void* value, const FieldContext& context) {
   ImGui::PushID(name.c_str());
-  label_cell(context.label.empty() ? humanised(row.key) : context.label,
+  label_cell(name, context.label.empty() ? humanised(row.key) : context.label,
              context.initial != nullptr && !field_equal(row, value, context.initial));
   bool reset = double_clicked_here();
   const std::string tip = field_tooltip(row, context.initial);

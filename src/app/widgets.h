@@ -13,7 +13,7 @@ namespace candela {
 
 /// Where a widget was drawn in the last frame, in framebuffer pixels.
 struct WidgetRecord {
-  std::string name; ///< "path.max_depth"; components append ".x", ".r", …; items of a choice "/sobol"
+  std::string name; ///< "path.max_depth"; components append ".x", ".r", …, items "/sobol", labels "#label"
   vec2 lo{0};
   vec2 hi{0};
   vec2 clip_lo{0}; ///< what lies outside of the clip rectangle was scrolled away
@@ -74,7 +74,7 @@ private:
     bool operator==(const Scalar&) const = default;
   };
 
-  void label_cell(std::string_view label, bool changed);
+  void label_cell(const std::string& name, std::string_view label, bool changed);
   bool double_clicked_here() const;
   bool scalar(const char* id, Scalar& value, const NumberStyle& style, bool& reset);
   bool vector_field(const std::string& name, const FieldInfo& row, vec3& value, const FieldContext& context,

@@ -242,10 +242,10 @@ public:
 
   // Widgets by name.
 
-  const WidgetRecord* find(const std::string& name) const {
+  std::optional<WidgetRecord> find(const std::string& name) const {
     for (const WidgetRecord& widget : viewer.widgets())
-      if (widget.name == name) return &widget;
-    return nullptr;
+      if (widget.name == name) return widget;
+    return std::nullopt;
   }
   static bool is_visible(const WidgetRecord& w) {
     return w.lo.x >= w.clip_lo.x - 1 && w.lo.y >= w.clip_lo.y - 1 && w.hi.x <= w.clip_hi.x + 1 &&
@@ -254,10 +254,10 @@ public:
   /// Scrolls the panels until the widget is to be seen, and returns its middle.
   vec2 reveal(const std::string& name) {
     for (int i = 0; i < 300; ++i) {
-      const WidgetRecord* widget = find(name);
-      if (widget == nullptr) break;
+      const auto widget = find(name);
+      if (!widget) break;
       if (is_visible(*widget)) return 0.5f * (widget->lo + widget->hi);
-      const WidgetRecord* column = find("panel.statistics"); // its left margin belongs to no list
+      const auto column = find("panel.statistics"); // its left margin belongs to no list
       const float x = column->lo.x - 1;
       scroll({x, 300}, widget->lo.y < widget->clip_lo.y + 1 ? 1.0f : -1.0f);
       frame();
@@ -269,9 +269,9 @@ public:
   void double_click(const std::string& name) { double_click(reveal(name)); }
   /// Opens a fold unless it shows `inside` already.
   void unfold(const std::string& section, const std::string& inside) {
-    if (find(inside) == nullptr) click(section);
+    if (!find(inside)) click(section);
     frame(2);
-    ASSERT_NE(find(inside), nullptr) << section << " has no " << inside;
+    ASSERT_TRUE(find(inside)) << section << " has no " << inside;
   }
   /// Unfolds every section and group.
   void unfold_all() {
@@ -285,7 +285,7 @@ public:
     unfold("group.film", "film.width");
     unfold("group.override", "override.brdf");
     unfold("panel.materials", "material.type");
-    if (find("light.type") == nullptr && find("emitter.emission.r") == nullptr) click("panel.lights");
+    if (!find("light.type") && !find("emitter.emission.r")) click("panel.lights");
     unfold("panel.scenes", "scene.path");
   }
   /// Ctrl+click, type, Enter.

@@ -125,8 +125,7 @@ TEST(ViewerSettingsUi, DoubleClickOnTheNameResetsAChoice) {
   ViewerHarness hand;
   hand.choose("display.tone_map", "filmic");
   ASSERT_EQ(hand.document().settings.display.tone_map, ToneMap::filmic);
-  const WidgetRecord* widget = hand.find("display.tone_map");
-  hand.double_click(vec2(widget->lo.x - 100, 0.5f * (widget->lo.y + widget->hi.y)));
+  hand.double_click("display.tone_map#label");
   EXPECT_EQ(hand.document().settings.display.tone_map, DisplaySettings{}.tone_map);
 }
 
@@ -175,8 +174,8 @@ TEST(ViewerSettingsUi, TypedValuesStayInTheirRow) {
 
 TEST(ViewerSettingsUi, ASliderIsDragged) {
   ViewerHarness hand;
-  const WidgetRecord* slider = hand.find("display.exposure");
-  ASSERT_NE(slider, nullptr);
+  const auto slider = hand.find("display.exposure");
+  ASSERT_TRUE(slider);
   const float y = 0.5f * (slider->lo.y + slider->hi.y);
   const std::uint64_t before = restarts(hand);
   hand.drag({0.5f * (slider->lo.x + slider->hi.x), y}, {slider->hi.x - 30, y});
@@ -219,7 +218,7 @@ TEST(ViewerSettingsUi, EveryMaterialFieldOfEveryType) {
     for (const auto& row : material_fields()) {
       SCOPED_TRACE(fmt::format("{}: {}", type, row.key));
       Material material = hand.document().scene.materials[1];
-      EXPECT_EQ(hand.find(widget_of(row, fmt::format("material.{}", row.key))) != nullptr,
+      EXPECT_EQ(hand.find(widget_of(row, fmt::format("material.{}", row.key))).has_value(),
                 material_uses(material.type, row.key));
       if (!material_uses(material.type, row.key) || row.key == "type") continue;
       const Edit value = other_value(row, row.address(material));
@@ -264,8 +263,8 @@ TEST(ViewerSettingsUi, TheColourPickerEdits) {
   const vec3 before = hand.document().scene.materials[1].diffuse;
   hand.click("material.diffuse.swatch");
   hand.frame(2);
-  const WidgetRecord* picker = hand.find("material.diffuse.picker");
-  ASSERT_NE(picker, nullptr);
+  const auto picker = hand.find("material.diffuse.picker");
+  ASSERT_TRUE(picker);
   hand.click(picker->lo + 0.3f * (picker->hi - picker->lo));
   EXPECT_NE(hand.document().scene.materials[1].diffuse, before);
   EXPECT_EQ(document_problem(hand.document()), "");
