@@ -3,6 +3,7 @@
 // field as eight floats side by side, so that one SIMD instruction treats all of them.
 
 #include "accel/accel.h"
+#include "accel/huge_pages.h"
 #include "accel/simd.h"
 
 #include <array>
@@ -77,10 +78,10 @@ struct AccelTree {
   simd::Vec4 lower{}, upper{}; ///< of the bounds, with a lane to spare
   ChildRef root{};
   Bounds3 bounds;
-  std::vector<WideNode> nodes;
-  std::vector<TrianglePack> triangles;
-  std::vector<SpherePack> spheres;
-  std::vector<DiscPack> discs;
+  HugeVector<WideNode> nodes;
+  HugeVector<TrianglePack> triangles;
+  HugeVector<SpherePack> spheres;
+  HugeVector<DiscPack> discs;
   std::vector<InstanceRecord> instances;
   AccelStats stats;
 

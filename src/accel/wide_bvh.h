@@ -10,7 +10,7 @@ namespace candela::accel_detail {
 /// Costs in node visits, as measured: a pack of triangles is tested in about the time of a node's eight
 /// boxes.
 inline constexpr float kNodeCost = 1.0f;
-constexpr float leaf_cost(LeafKind kind) { return kind == LeafKind::instance ? 8.0f : 1.0f; }
+constexpr float leaf_cost(LeafKind kind) { return kind == LeafKind::instance ? 8.0f : 1.5f; }
 
 /// What becomes of each binary node, chosen bottom-up by dynamic programming so that the surface area
 /// heuristic of the wide tree is least (Ylitie, Karras and Laine 2017, "Efficient Incoherent Ray Traversal on
@@ -44,7 +44,7 @@ struct LeafRange {
 
 struct WideBvh {
   ChildRef root;
-  std::vector<WideNode> nodes; ///< in preorder
+  HugeVector<WideNode> nodes; ///< in preorder
   std::vector<LeafRange> leaves;
   std::array<std::uint32_t, 4> packs{}; ///< how many of each LeafKind
   int depth = 0;
