@@ -19,9 +19,9 @@ Surface triangle_surface(const TriangleSet& set, const Hit& hit) {
   Surface s;
   s.position = a + b + c;
   s.position_error = gamma_bound(7) * (glm::abs(a) + glm::abs(b) + glm::abs(c)); // pbrt-v4, eq. 6.31
-  // The test of the next ray against this triangle rounds t by the triangle's size in whatever direction, also
-  // where the point itself has no error along the normal (a wall in a coordinate plane). The factor is where
-  // self-intersections of well-shaped triangles ended when measured.
+  // The test of the next ray against this triangle rounds t by the triangle's size in whatever direction,
+  // also where the point itself has no error along the normal (a wall in a coordinate plane). The factor is
+  // where self-intersections of well-shaped triangles ended when measured.
   s.position_error += gamma_bound(8) * max_component(glm::max(glm::abs(p1 - p0), glm::abs(p2 - p0)));
   s.geometric_normal = glm::normalize(glm::cross(p1 - p0, p2 - p0));
   s.shading_normal = s.geometric_normal;
@@ -54,7 +54,7 @@ Surface Geometry::surface(const Ray& ray, const Hit& hit) const {
                          gamma_bound(3) * (abs_m * glm::abs(s.position) + glm::abs(vec3(m[3])));
       s.position = transform_point(m, s.position);
       s.geometric_normal = glm::normalize(p.normal_to_world * s.geometric_normal);
-      s.shading_normal = p.normal_to_world * s.shading_normal;
+      s.shading_normal = set.normals.empty() ? s.geometric_normal : p.normal_to_world * s.shading_normal;
       s.material = p.slot_materials[set.materials[hit.primitive]];
       s.emitter = p.first_emitter + hit.primitive;
     } else {

@@ -201,7 +201,9 @@ private:
 
   /// Russian roulette (Arvo and Kirk 1990): going on with probability q and weight 1/q keeps the mean.
   bool survives(int depth) {
-    if (is_black(throughput_)) return false;
+    // Nothing, or less than a normal float: rounding would keep denormals alive for ever where reflectance is
+    // above 1/2.
+    if (max_component(throughput_) < std::numeric_limits<float>::min()) return false;
     if (settings_.rr == RussianRoulette::off || depth < settings_.rr_depth) return true;
     float q = settings_.rr_probability;
     // Without the 1/eta^2 of refractions, which the way out of the glass gives back.

@@ -72,6 +72,9 @@ void RenderScene::add_materials(const Document& document) {
 }
 
 void RenderScene::add_emitters() {
+  // A path that meets a partly transparent light by chance sees it with the chance of its opacity; aiming at
+  // it must expect the same.
+  auto aimed = [](const SurfaceMaterial& m) { return m.emission * m.opacity; };
   bool any = false;
   for (const SurfaceMaterial& m : materials_) any |= m.emissive;
   if (!any) return;
@@ -88,8 +91,7 @@ void RenderScene::add_emitters() {
     if (!(double_area > 0)) return; // no ray meets it either
     vec3 n = c / double_area;
     if (glm::dot(n, outside) < 0) n = -n;
-    add(emitter,
-        TriangleLight{p0, p1 - p0, p2 - p0, n, 0.5f * double_area, m.emission, m.two_sided_emission});
+    add(emitter, TriangleLight{p0, p1 - p0, p2 - p0, n, 0.5f * double_area, aimed(m), m.two_sided_emission});
   };
 
   for (const RectangleGeometry& r : g.rectangles()) {
@@ -101,7 +103,7 @@ void RenderScene::add_emitters() {
     float area = glm::length(c);
     if (!(area > 0)) continue;
     add(r.first_triangle,
-        RectangleLight{r.corner, r.edge_x, r.edge_y, c / area, area, m.emission, m.two_sided_emission});
+        RectangleLight{r.corner, r.edge_x, r.edge_y, c / area, area, aimed(m), m.two_sided_emission});
     light_of_emitter_[r.first_triangle + 1] = light_of_emitter_[r.first_triangle];
   }
   const TriangleSet& world = g.world();
@@ -115,11 +117,11 @@ void RenderScene::add_emitters() {
   for (std::size_t i = 0; i < g.spheres().size(); ++i)
     if (const SurfaceMaterial& m = materials_[g.sphere_materials()[i]]; m.emissive)
       add(g.sphere_emitter(i),
-          SphereLight{g.spheres()[i].center, g.spheres()[i].radius, m.emission, m.two_sided_emission});
+          SphereLight{g.spheres()[i].center, g.spheres()[i].radius, aimed(m), m.two_sided_emission});
   for (std::size_t i = 0; i < g.discs().size(); ++i)
     if (const SurfaceMaterial& m = materials_[g.disc_materials()[i]]; m.emissive)
       add(g.disc_emitter(i), DiscLight{g.discs()[i].center, g.discs()[i].normal, g.discs()[i].radius,
-                                       m.emission, m.two_sided_emission});
+                                       aimed(m), m.two_sided_emission});
   for (const Geometry::Placed& p : g.placed()) {
     const TriangleSet& set = g.objects()[p.object]->set;
     for (std::uint32_t i = 0; i < set.triangles.size(); ++i) {

@@ -1,0 +1,239 @@
+// Direct light on a diffuse plane against closed forms: radiance = albedo / pi * irradiance.
+
+#include "closed_forms.h"
+#include "render_testing.h"
+
+namespace {
+
+using namespace candela;
+using namespace candela::test;
+
+constexpr double kAlbedo = 0.6;
+
+/// A plane y = 0 of diffuse reflectance kAlbedo, seen at the origin through so narrow a camera that all
+/// pixels see one point; what shines is added by the test. Direct light only.
+SceneMaker plane_scene(int spp, vec3 eye = {3, 2, 4}) {
+  SceneMaker s(32, 16, spp);
+  int plane = s.diffuse(vec3(static_cast<float>(kAlbedo)));
+  s.rectangle({0, 0, 0}, {0, 0, 20}, {20, 0, 0}, plane);
+  s.camera(eye, {0, 0, 0}, 0.002f);
+  s.document.settings.path.max_depth = 2;
+  return s;
+}
+
+struct Strategy {
+  const char* name;
+  LightSampling light;
+  MisHeuristic heuristic;
+  DirectionSampling direction;
+  int light_samples;
+  int spp_factor; ///< what chance needs more of
+  double tolerance;
+};
+
+constexpr Strategy kStrategies[] = {
+    {"nee", LightSampling::nee, MisHeuristic::power, DirectionSampling::bsdf, 1, 1, 1e-3},
+    {"nee, 3 light samples", LightSampling::nee, MisHeuristic::power, DirectionSampling::bsdf, 3, 1, 1e-3},
+    {"mis, power", LightSampling::mis, MisHeuristic::power, DirectionSampling::bsdf, 1, 1, 1e-3},
+    {"mis, balance, uniform, 2 light samples", LightSampling::mis, MisHeuristic::balance,
+     DirectionSampling::uniform, 2, 1, 1e-3},
+    {"bsdf", LightSampling::bsdf, MisHeuristic::power, DirectionSampling::bsdf, 1, 1, 1e-2},
+};
+
+/// Every strategy that can find the light gives the irradiance; `slack` multiplies the tolerances where the
+/// noise asks for it.
+void expect_irradiance(SceneMaker scene, dvec3 irradiance, bool by_chance = true, double slack = 1) {
+  int salt = 0;
+  for (const Strategy& strategy : kStrategies) {
+    if (strategy.light == LightSampling::bsdf && !by_chance) continue;
+    SCOPED_TRACE(strategy.name);
+    Document d = scene.document;
+    d.settings.sampler.seed = sampler_seed(static_cast<std::uint64_t>(++salt));
+    d.settings.path.light_sampling = strategy.light;
+    d.settings.path.mis_heuristic = strategy.heuristic;
+    d.settings.path.direction_sampling = strategy.direction;
+    d.settings.path.light_samples = strategy.light_samples;
+    d.settings.stop.spp *= strategy.spp_factor;
+    Film film = render(d);
+    for (int c = 0; c < 3; ++c) {
+      SCOPED_TRACE(c);
+      double exact = kAlbedo / kPiD * irradiance[c];
+      expect_radiance(over_pixels(film, c), exact, slack * strategy.tolerance, 15);
+    }
+  }
+}
+
+/// The plane's camera pixels are black, whatever the strategy.
+void expect_dark(SceneMaker scene) {
+  for (const Strategy& strategy : kStrategies) {
+    SCOPED_TRACE(strategy.name);
+    Document d = scene.document;
+    d.settings.path.light_sampling = strategy.light;
+    Film film = render(d);
+    EXPECT_EQ(over_pixels(film, 1).mean(), 0);
+  }
+}
+
+const vec3 kLe{3, 2, 1};
+
+TEST(ClosedFormRender, SphereLightIrradianceIsTheConesCosineIntegral) {
+  SceneMaker s = plane_scene(256);
+  s.sphere({-1, 2.5f, 1}, 1.5f, s.diffuse(vec3(0), kLe));
+  double distance = std::sqrt(1 + 2.5 * 2.5 + 1);
+  expect_irradiance(s, dvec3(kLe) * sphere_irradiance(1.5, distance, 2.5 / distance));
+}
+
+TEST(ClosedFormRender, SmallFarSphereLightKeepsItsPrecision) {
+  SceneMaker s = plane_scene(64);
+  s.sphere({0, 500, 0}, 1, s.diffuse(vec3(0), 1e5f * kLe));
+  expect_irradiance(s, 1e5 * dvec3(kLe) * sphere_irradiance(1, 500, 1), false);
+}
+
+TEST(ClosedFormRender, InsideATwoSidedSphereThereIsItsRadianceAllAround) {
+  for (bool two_sided : {true, false}) {
+    SceneMaker s = plane_scene(256, {0.3f, 0.2f, 0.4f});
+    s.document.scene.instances.clear();
+    s.rectangle({0, 0, 0}, {0, 0, 0.5f}, {0.5f, 0, 0}, 0);
+    Material m;
+    m.diffuse = vec3(0);
+    m.emission = kLe;
+    m.two_sided_emission = two_sided;
+    s.sphere({0.5f, 0.25f, 0}, 2, s.material(m));
+    if (two_sided)
+      expect_irradiance(s, kPiD * dvec3(kLe));
+    else
+      expect_dark(s);
+  }
+}
+
+TEST(ClosedFormRender, DiscLightOnItsAxis) {
+  for (bool turned : {false, true}) { // away from the plane: it must be two-sided to shine there
+    SceneMaker s = plane_scene(256);
+    Material m;
+    m.diffuse = vec3(0);
+    m.emission = kLe;
+    m.two_sided_emission = turned;
+    vec3 x(1, 0, 0), z(0, 0, 1);
+    s.disc({0, 1.25f, 0}, 1.5f, turned ? z : x, turned ? x : z, s.material(m));
+    expect_irradiance(s, dvec3(kLe) * disc_irradiance(1.5, 1.25));
+    if (turned) {
+      s.document.scene.materials.back().two_sided_emission = false;
+      expect_dark(s);
+    }
+  }
+}
+
+TEST(ClosedFormRender, ParallelRectangleLight) {
+  for (bool turned : {false, true}) {
+    SceneMaker s = plane_scene(256);
+    Material m;
+    m.diffuse = vec3(0);
+    m.emission = kLe;
+    m.two_sided_emission = turned;
+    vec3 x(0.75f, 0, 0), z(0, 0, 1);
+    s.rectangle({-0.75f, 1.5f, -1}, turned ? z : x, turned ? x : z, s.material(m));
+    double factor = parallel_rectangle_factor(1.5, 2, 1.5);
+    std::vector<dvec3> corners{{0, 1.5, 0}, {-1.5, 1.5, 0}, {-1.5, 1.5, -2}, {0, 1.5, -2}};
+    EXPECT_NEAR(kPiD * factor, polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners), 1e-12);
+    expect_irradiance(s, kPiD * factor * dvec3(kLe));
+    if (turned) {
+      s.document.scene.materials.back().two_sided_emission = false;
+      expect_dark(s);
+    }
+  }
+}
+
+TEST(ClosedFormRender, PerpendicularRectangleLight) {
+  SceneMaker s = plane_scene(256);
+  // In the plane x = -1 from its meeting line with the ground upwards: z from 0 to 2, y from 0 to 3; normal
+  // +x.
+  s.rectangle({-1, 1.5f, 1}, {0, 1.5f, 0}, {0, 0, 1}, s.diffuse(vec3(0), kLe));
+  double factor = perpendicular_rectangle_factor(3, 2, 1);
+  std::vector<dvec3> corners{{-1, 0, 0}, {-1, 3, 0}, {-1, 3, 2}, {-1, 0, 2}};
+  EXPECT_NEAR(kPiD * factor, polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners), 1e-12);
+  expect_irradiance(s, kPiD * factor * dvec3(kLe));
+}
+
+TEST(ClosedFormRender, SmallFarRectangleLightIsSampledByArea) {
+  SceneMaker s = plane_scene(64);
+  s.rectangle({0, 100, 0}, {0.05f, 0, 0}, {0, 0, 0.05f}, s.diffuse(vec3(0), 1e6f * kLe));
+  double e = kPiD * 4 * parallel_rectangle_factor(0.05, 0.05, 100);
+  expect_irradiance(s, 1e6 * e * dvec3(kLe), false);
+}
+
+TEST(ClosedFormRender, ShearedRectangleLightIsAParallelogram) {
+  SceneMaker s = plane_scene(2048);
+  s.rectangle({-0.5f, 2.5f, 0}, {0.75f, 0, 0}, {0.5f, 0.25f, 1}, s.diffuse(vec3(0), kLe));
+  dvec3 c(-0.5, 2.5, 0), x(0.75, 0, 0), y(0.5, 0.25, 1);
+  std::vector<dvec3> corners{c - x - y, c + x - y, c + x + y, c - x + y};
+  expect_irradiance(s, polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners) * dvec3(kLe));
+}
+
+TEST(ClosedFormRender, TriangleMeshLight) {
+  Mesh mesh;
+  mesh.positions = {{-1, 1, -1}, {1, 1.5f, -1}, {1, 2, 1}, {-1, 1.5f, 1}}; // planar: y = 1.5 + x/4 + z/4
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};                                 // normal down
+  std::vector<dvec3> corners(mesh.positions.begin(), mesh.positions.end());
+  double e = polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners);
+  auto shared = std::make_shared<const Mesh>(mesh);
+  SceneMaker once = plane_scene(1024);
+  once.mesh_shared(shared, once.diffuse(vec3(0), kLe));
+  expect_irradiance(once, e * dvec3(kLe));
+  // Mirrored in the middle plane x = z it is itself with its winding turned over, and still shines downwards.
+  SceneMaker mirrored = plane_scene(1024);
+  mat4 swap(vec4(0, 0, 1, 0), vec4(0, 1, 0, 0), vec4(1, 0, 0, 0), vec4(0, 0, 0, 1));
+  mirrored.mesh_shared(shared, mirrored.diffuse(vec3(0), kLe), swap);
+  expect_irradiance(mirrored, e * dvec3(kLe));
+}
+
+TEST(ClosedFormRender, PointLightFallsOffWithTheSquare) {
+  SceneMaker s = plane_scene(4);
+  LightDesc l;
+  l.type = LightType::point;
+  l.position = {1, 2, -2};
+  l.color = kLe;
+  l.scale = 5;
+  s.document.scene.lights.push_back(l);
+  expect_irradiance(s, 5.0 * dvec3(kLe) * (2.0 / 3) / 9.0); // at distance 3, under the cosine 2/3
+}
+
+TEST(ClosedFormRender, DirectionalLightHasTheCosine) {
+  SceneMaker s = plane_scene(4);
+  LightDesc l;
+  l.type = LightType::directional;
+  l.direction = {2, -4, 4}; // any length
+  l.color = kLe;
+  s.document.scene.lights.push_back(l);
+  expect_irradiance(s, dvec3(kLe) * (2.0 / 3));
+  s.document.scene.lights.back().direction = {2, 4, 4}; // from below
+  expect_dark(s);
+}
+
+TEST(ClosedFormRender, ConstantLightGivesPiTimesItsRadiance) {
+  SceneMaker s = plane_scene(64);
+  s.constant_light(kLe);
+  expect_irradiance(s, kPiD * dvec3(kLe));
+}
+
+TEST(ClosedFormRender, LightsOfAllKindsAdd) {
+  SceneMaker s = plane_scene(512);
+  s.sphere({-3, 2, 0}, 1, s.diffuse(vec3(0), kLe));
+  double distance = std::sqrt(13.0);
+  dvec3 e = dvec3(kLe) * sphere_irradiance(1, distance, 2 / distance);
+  s.disc({0, 2, 0}, 1, {1, 0, 0}, {0, 0, 1}, s.diffuse(vec3(0), kLe));
+  e += dvec3(kLe) * disc_irradiance(1, 2);
+  LightDesc sun;
+  sun.type = LightType::directional;
+  sun.direction = {-1, -1, 0};
+  sun.color = {0.5f, 1, 2};
+  s.document.scene.lights.push_back(sun);
+  e += dvec3(0.5, 1, 2) / std::numbers::sqrt2;
+  LightDesc lamp;
+  lamp.position = {0, 1, -1};
+  lamp.color = {1, 2, 1};
+  s.document.scene.lights.push_back(lamp);
+  e += dvec3(1, 2, 1) / (2 * std::numbers::sqrt2);
+  expect_irradiance(s, e, true, 25);
+}
+
+} // namespace
