@@ -19,8 +19,8 @@ struct BsdfSample {
   /// of having chosen it (no density; do not combine it by MIS).
   float pdf;
   bool delta;
-  /// Refractive index on wi's side over that on wo's side; 1 for reflection. The weight of a refraction has 1
-  /// / eta^2 in it, which Russian roulette should divide out again.
+  /// Refractive index on wi's side over that on wo's side; 1 for reflection. The weight of a refraction has
+  /// a factor 1 / eta^2 in it, which Russian roulette should undo.
   float eta = 1;
 };
 
@@ -30,14 +30,12 @@ struct BsdfEval {
 };
 
 /// - eval: f(wo, wi) |cos theta_i| in 1/sr of the part without delta lobes.
-/// - pdf: density in 1/sr with which sample() gives wi by a lobe without delta. Over the sphere it integrates
-/// to 1 -
-///   delta_probability(wo) less the probability that sample() fails.
+/// - pdf: density in 1/sr with which sample() gives wi by a lobe without delta. Over the sphere it
+///   integrates to 1 - delta_probability(wo), less the probability that sample() fails.
 /// - eval_pdf: both at once.
-/// - sample: u in [0, 1)^3; u.z chooses the lobe, and a delta lobe exactly where u.z < delta_probability(wo);
-/// u.xy
-///   chooses the direction. Nothing where the sample carries no light (absorbed, or a direction below the
-///   surface): it counts as a sample of value 0.
+/// - sample: u in [0, 1)^3; u.z chooses the lobe, and a delta lobe exactly where
+///   u.z < delta_probability(wo); u.xy chooses the direction. Nothing where the sample carries no light
+///   (absorbed, or a direction below the surface): it counts as a sample of value 0.
 /// - delta_probability: with which sample() takes a delta lobe (0: there is none, 1: there is nothing else).
 /// - albedo: rough reflectance, for the albedo view only.
 template <class B>

@@ -98,13 +98,14 @@ inline vec2 sobol_point(std::uint64_t key, std::uint32_t reversed_sample, std::u
 
 /// Every value is in [0, 1). Pixels, bounces, dimensions and indices are independent of each other; within
 /// one of them the samples 0, 1, 2, … of a pixel are spread as the type says, and any number of them may be
-/// used:
-/// - stratified: each run of strata^2 samples has one in every cell of a strata x strata grid (of strata^2
-///   intervals in 1-D), jittered and in an order of its own.
-/// - sobol: each aligned run of 2^m samples is a (0, m, 2)-net in base 2 (a (0, m, 1)-net in 1-D): one point
-/// in
-///   every elementary interval of size 2^-m (Burley 2020, "Practical Hash-based Owen Scrambling": padded 2-D
-///   sequences with a nested uniform shuffle of the index).
+/// used.
+///
+/// stratified: each run of strata^2 samples has one in every cell of a strata x strata grid (of strata^2
+/// intervals in 1-D), jittered and in an order of its own.
+///
+/// sobol: each aligned run of 2^m samples is a (0, m, 2)-net in base 2 (a (0, m, 1)-net in 1-D): one point in
+/// every elementary interval of size 2^-m (Burley 2020, "Practical Hash-based Owen Scrambling": padded 2-D
+/// sequences with a nested uniform shuffle of the index).
 class Sampler {
 public:
   /// `strata` is a side of the stratified sampler's grid, in [1, 65535].

@@ -14,14 +14,43 @@ inline float spherical_triangle_solid_angle(vec3 a, vec3 b, vec3 c) {
   return std::abs(2 * std::atan2(numerator, denominator));
 }
 
+namespace detail {
+
+struct CosSin {
+  double cos, sin;
+};
+/// Of an angle in [0, 2 pi], error below 3e-16: minimax polynomials of quarter turns, for the same bits on
+/// every machine and at half the cost of libm's.
+inline CosSin cos_sin(double angle) {
+  double quarters = angle * (2 * std::numbers::inv_pi);
+  double nearest = std::floor(quarters + 0.5);
+  double r = quarters - nearest, r2 = r * r;
+  double s = 5.63393378153785395e-8;
+  for (double k : {-3.5986433529823097e-6, 0.000160441150742190911, -0.00468175413234097599,
+                   0.0796926262460430031, -0.645964097506244316, 1.57079632679489661})
+    s = k + r2 * s;
+  s *= r;
+  double c = 4.66320538869034346e-7;
+  for (double k : {-0.000025200703761965413, 0.000919260101442624939, -0.0208634807531968792,
+                   0.253669507900830424, -1.23370055013616907, 1.0})
+    c = k + r2 * c;
+  switch (static_cast<int>(nearest) & 3) {
+  case 0: return {c, s};
+  case 1: return {-s, c};
+  case 2: return {-c, -s};
+  default: return {s, -c};
+  }
+}
+
+} // namespace detail
+
 /// A rectangle as seen from a point, sampled uniformly in solid angle: density 1 / solid_angle per sr.
 ///
 /// The map is that of Ureña, Fajardo & King 2013, "An Area-Preserving Parametrization for Spherical
-/// Rectangles", in another form. Put the origin at 0 and the rectangle at height z > 0 over [x0, x1] x [y0,
-/// y1]. The part of it left of x covers
+/// Rectangles", in another form. Put the origin at 0 and the rectangle at height z > 0, spanning x0..x1 and
+/// y0..y1. The part of it left of x covers
 ///     asin(b1 s) - asin(b0 s) - c0,   s = x / sqrt(x^2 + z^2),   b_j = y_j / sqrt(y_j^2 + z^2),
-/// where c0 makes it 0 at x0. Setting it to u.x times the whole and solving for s, with c = c0 + u.x
-/// solid_angle,
+/// where c0 makes it 0 at x0. Set it to u.x times the whole and solve for s; with c = c0 + u.x solid_angle,
 ///     s = sin c / sqrt(b0^2 + b1^2 - 2 b0 b1 cos c),
 /// which is the law of cosines. No arcs but the solid angle's are needed: c0 enters by its sine and cosine,
 /// which are algebraic. Then y is distributed so that y / sqrt(x^2 + y^2 + z^2) is uniform. Double precision,
@@ -84,8 +113,7 @@ inline SphericalRectangle::SphericalRectangle(vec3 corner, vec3 edge_x, vec3 edg
   b0_ = y0_ / near_y0;
   b1_ = y1_ / near_y1;
   q_ = z2_ / (near_y0 * near_y1);
-  // c0 = asin(b1 s0) - asin(b0 s0); the cosine of asin(b_j s0) is z r_0j / (sqrt(x0^2 + z^2) sqrt(y_j^2 +
-  // z^2)).
+  // c0 = asin(b1 s0) - asin(b0 s0), and cos(asin(b_j s0)) = z r_0j / (near_x0 near_yj).
   double s0 = x0_ / near_x0;
   double sin1 = b1_ * s0, sin0 = b0_ * s0;
   double cos1 = z_ * r01 / (near_x0 * near_y1), cos0 = z_ * r00 / (near_x0 * near_y0);
@@ -94,8 +122,7 @@ inline SphericalRectangle::SphericalRectangle(vec3 corner, vec3 edge_x, vec3 edg
 }
 
 inline vec3 SphericalRectangle::sample(vec2 u) const {
-  double angle = static_cast<double>(u.x) * exact_solid_angle_;
-  double sin_angle = std::sin(angle), cos_angle = std::cos(angle);
+  auto [cos_angle, sin_angle] = detail::cos_sin(static_cast<double>(u.x) * exact_solid_angle_);
   double sin_c = sin_c0_ * cos_angle + cos_c0_ * sin_angle;
   double cos_c = cos_c0_ * cos_angle - sin_c0_ * sin_angle;
   // x = z s / sqrt(1 - s^2) = z sin c / sqrt(b0^2 + b1^2 - 2 b0 b1 cos c - sin^2 c), whose radicand is this

@@ -1,26 +1,10 @@
 #pragma once
-// Maps of the unit square to the domains that rendering samples, each with its density. All take u in [0,
-// 1)^2, are continuous but for measure-zero seams and keep areas, so that well-spread points stay well
-// spread.
+// Maps of the unit square [0, 1)^2 to the domains that rendering samples, each with its density. They keep
+// areas and are continuous but for seams, so that well-spread points stay well spread.
 
 #include "core/math.h"
 
 namespace candela {
-
-/// (cos, sin) of the angle 2 pi `turns`; |turns| < 2^20, absolute error below 2e-7. Polynomials instead of
-/// libm: the same bits on every machine (libm picks FMA variants at run time), and quicker. The coefficients
-/// are minimax fits of sin and cos over an eighth of a turn to either side.
-inline vec2 unit_circle(float turns) {
-  float quarters = 4 * turns;
-  float nearest = std::floor(quarters + 0.5f);
-  float r = quarters - nearest; // exact, in [-1/2, 1/2]
-  float r2 = r * r;
-  float s = r * (1.5707963217f + r2 * (-0.6459634602f + r2 * (0.0796800328f + r2 * -0.0046016579f)));
-  float c = 1 + r2 * (-1.2337005426f + r2 * (0.2536692260f + r2 * (-0.0208601651f + r2 * 0.0009037666f)));
-  int quadrant = static_cast<int>(nearest);
-  vec2 p = quadrant & 1 ? vec2(-s, c) : vec2(c, s);
-  return quadrant & 2 ? -p : p;
-}
 
 /// Unit disc, density kInvPi per unit area. Concentric map (Shirley & Chiu 1997, "A Low Distortion Map
 /// Between Disk and Square").
@@ -29,7 +13,8 @@ inline vec2 sample_uniform_disc(vec2 u) {
   bool wide = std::abs(p.x) > std::abs(p.y);
   float radius = wide ? p.x : p.y;
   if (radius == 0) return vec2(0);
-  // An angle of at most an eighth of a turn from the nearest axis.
+  // Sine and cosine of r quarter turns, |r| <= 1/2, by minimax polynomials (error 4e-9): the same bits on
+  // every machine, where libm picks variants with fused multiply-add at run time, and quicker.
   float r = 0.5f * ((wide ? p.y : p.x) / radius);
   float r2 = r * r;
   float s = r * (1.5707963217f + r2 * (-0.6459634602f + r2 * (0.0796800328f + r2 * -0.0046016579f)));

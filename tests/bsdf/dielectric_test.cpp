@@ -145,7 +145,8 @@ TEST(Dielectric, EqualIndicesAreNoSurface) {
     vec3 wo = random.direction();
     std::optional<BsdfSample> s = Dielectric{1, vec3(1)}.sample(wo, random.three());
     ASSERT_TRUE(s);
-    EXPECT_LT(glm::length(s->wi + wo), 1e-5f);
+    // The square root costs a small cosine half of its digits.
+    EXPECT_LT(glm::length(s->wi + wo), 5e-4f);
     EXPECT_EQ(s->weight, vec3(1));
   }
 }

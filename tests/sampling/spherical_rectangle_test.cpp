@@ -149,6 +149,15 @@ TEST(SphericalRectangleStatistical, UniformDownToTheSmallestSolidAngle) {
   }
 }
 
+TEST(SphericalRectangle, CosineAndSine) {
+  for (int i = 0; i <= 100000; ++i) {
+    double angle = 2 * std::numbers::pi * i / 100000;
+    auto [c, s] = detail::cos_sin(angle);
+    ASSERT_NEAR(c, std::cos(angle), 1.5e-15) << angle;
+    ASSERT_NEAR(s, std::sin(angle), 1.5e-15) << angle;
+  }
+}
+
 TEST(SphericalTriangle, OctantAndSubdivision) {
   vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   EXPECT_NEAR(spherical_triangle_solid_angle(x, y, z), kPi / 2, 1e-6);

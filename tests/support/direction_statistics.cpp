@@ -9,36 +9,44 @@ namespace {
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
 }
 
+SphereBins::Spacing::Spacing(double lo, double hi, double m, double width)
+    : lo_(lo), hi_(hi), m_(m), width_(width), angle_lo_(std::atan((lo - m) / width)),
+      angle_range_(std::atan((hi - m) / width) - angle_lo_) {}
+
 double SphereBins::Spacing::quantile(double s) const {
-  double a0 = std::atan((lo - m) / width), a1 = std::atan((hi - m) / width);
-  return std::clamp(m + width * std::tan(a0 + s * (a1 - a0)), lo, hi);
+  return std::clamp(m_ + width_ * std::tan(angle_lo_ + s * angle_range_), lo_, hi_);
 }
 
 double SphereBins::Spacing::density(double x) const {
-  double a0 = std::atan((lo - m) / width), a1 = std::atan((hi - m) / width), r = (x - m) / width;
-  return 1 / ((a1 - a0) * width * (1 + r * r));
+  double r = (x - m_) / width_;
+  return 1 / (angle_range_ * width_ * (1 + r * r));
 }
 
 double SphereBins::Spacing::cdf(double x) const {
-  double a0 = std::atan((lo - m) / width), a1 = std::atan((hi - m) / width);
-  return (std::atan((x - m) / width) - a0) / (a1 - a0);
+  return (std::atan((x - m_) / width_) - angle_lo_) / angle_range_;
 }
 
-SphereBins::SphereBins(vec3 peak, double width, int rings, int sectors)
-    : side_(peak.z < 0 ? -1 : 1), rings_(rings), sectors_(sectors), rings_on_side_(rings * 3 / 4) {
-  glm::dvec3 p = glm::normalize(glm::dvec3(peak));
-  double sin_theta = std::hypot(p.x, p.y), theta = std::atan2(sin_theta, std::abs(p.z));
-  peak_azimuth_ = std::atan2(p.y, p.x);
-  theta_on_side_ = {0, kHalfPi, theta, width};
-  theta_beyond_ = {kHalfPi, std::numbers::pi, kHalfPi, std::max(width, 0.5)};
-  // A lobe about the pole has all azimuths.
-  phi_ = {-std::numbers::pi, std::numbers::pi, 0,
-          sin_theta > 1e-6 ? std::min(width / sin_theta, 10.0) : 10.0};
+namespace {
+
+double sin_theta(vec3 w) { return std::hypot(double(w.x), double(w.y)); }
+
+/// A lobe about the pole has all azimuths.
+double azimuth_width(vec3 peak, double width) {
+  return sin_theta(peak) > 1e-6 ? std::min(width / sin_theta(peak), 10.0) : 10.0;
 }
+
+} // namespace
+
+SphereBins::SphereBins(vec3 peak, double width, int rings, int sectors)
+    : side_(peak.z < 0 ? -1 : 1), peak_theta_(std::atan2(sin_theta(peak), std::abs(double(peak.z)))),
+      peak_azimuth_(std::atan2(double(peak.y), double(peak.x))), rings_(rings), sectors_(sectors),
+      rings_on_side_(rings * 3 / 4), theta_on_side_(0, kHalfPi, peak_theta_, width),
+      theta_beyond_(kHalfPi, std::numbers::pi, kHalfPi, std::max(width, 0.5)),
+      phi_(-std::numbers::pi, std::numbers::pi, 0, azimuth_width(peak, width)) {}
 
 std::size_t SphereBins::index(vec3 w) const {
   glm::dvec3 d(w);
-  double sin_theta = std::hypot(d.x, d.y), theta = std::atan2(sin_theta, side_ * d.z);
+  double theta = std::atan2(sin_theta(w), side_ * d.z);
   bool beyond = side_ * d.z < 0;
   double s = (beyond ? theta_beyond_ : theta_on_side_).cdf(theta);
   int count = beyond ? rings_ - rings_on_side_ : rings_on_side_;
@@ -63,10 +71,10 @@ double SphereBins::gauss(const std::function<double(vec3)>& f, const Cell& cell)
   double sum = 0;
   for (std::size_t i = 0; i < 5; ++i) {
     double theta = cell.theta->quantile(0.5 * (cell.s0 + cell.s1) + 0.5 * (cell.s1 - cell.s0) * kNodes[i]);
-    double sin_theta = std::sin(theta), z = side_ * std::cos(theta);
-    double weight = kWeights[i] * sin_theta / cell.theta->density(theta);
+    double sine = std::sin(theta), z = side_ * std::cos(theta);
+    double weight = kWeights[i] * sine / cell.theta->density(theta);
     for (std::size_t j = 0; j < 5; ++j)
-      sum += weight * phi_weight[j] * f(vec3(glm::dvec3(sin_theta * cos_phi[j], sin_theta * sin_phi[j], z)));
+      sum += weight * phi_weight[j] * f(vec3(glm::dvec3(sine * cos_phi[j], sine * sin_phi[j], z)));
   }
   return sum * 0.25 * (cell.s1 - cell.s0) * (cell.t1 - cell.t0);
 }

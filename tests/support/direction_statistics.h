@@ -25,11 +25,15 @@ public:
 
 private:
   /// x in [lo, hi], spaced as the quantiles of a Cauchy distribution about m that is cut off there.
-  struct Spacing {
-    double lo, hi, m, width;
+  class Spacing {
+  public:
+    Spacing(double lo, double hi, double m, double width);
     double quantile(double s) const;
     double density(double x) const; ///< ds / dx
     double cdf(double x) const;
+
+  private:
+    double lo_, hi_, m_, width_, angle_lo_, angle_range_;
   };
   struct Cell {
     const Spacing* theta;
@@ -40,9 +44,9 @@ private:
                         int depth) const;
 
   double side_; ///< of peak: +1 above the horizon, -1 below; theta counts from side_ * z
+  double peak_theta_, peak_azimuth_;
   int rings_, sectors_, rings_on_side_;
-  Spacing theta_on_side_, theta_beyond_, phi_; ///< phi from peak's azimuth
-  double peak_azimuth_;
+  Spacing theta_on_side_, theta_beyond_, phi_; ///< phi counts from peak's azimuth
 };
 
 /// Of f over the whole sphere, sr; peak and width (as of SphereBins) say where most of it is.
