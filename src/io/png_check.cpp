@@ -69,7 +69,11 @@ void check_png(ByteView bytes, const Location& where) {
       rows = row_bytes(data.data());
       first = false;
     }
-    if (is("IDAT")) compressed += length;
+    if (is("IDAT")) {
+      // stb_image would copy nothing to nowhere, which is undefined; no known program writes such a file.
+      if (compressed == 0 && length == 0) throw damaged_image(where, "the pixels of the PNG start empty");
+      compressed += length;
+    }
     if (is("IEND")) break;
     at += 12 + length;
   }
