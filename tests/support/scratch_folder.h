@@ -35,6 +35,7 @@ inline std::string read_text(const std::string& path) {
 }
 
 inline void write_text(const std::string& path, const std::string& text) {
+  std::filesystem::remove(path); // some file systems flush a file to the disk when it is overwritten
   std::ofstream(path, std::ios::binary) << text;
 }
 
