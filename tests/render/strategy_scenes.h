@@ -1,0 +1,112 @@
+#pragma once
+// Small scenes in which every strategy has something to do. Lights and lobes are wide enough that every
+// strategy finds them often, for a test that waits for rare events finds nothing out.
+
+#include "render_testing.h"
+
+namespace candela::test {
+
+struct NamedScene {
+  const char* name;
+  Document document;
+};
+
+inline Material strategy_material(MaterialType type, vec3 diffuse, vec3 specular) {
+  Material m;
+  m.type = type;
+  m.diffuse = diffuse;
+  m.specular = specular;
+  m.exponent = 12;
+  m.roughness = 0.6f;
+  return m;
+}
+
+/// A floor and a wall of the material under a large light, a small one and a sphere light.
+inline Document plates_scene(const Material& material) {
+  SceneMaker s(8, 8, 1);
+  int mat = s.material(material);
+  s.rectangle({0, 0, 0}, {0, 0, 4}, {4, 0, 0}, mat);
+  s.rectangle({0, 2, -3}, {4, 0, 0}, {0, 2, 0}, mat);
+  s.rectangle({-1, 3, 0}, {1.5f, 0, 0}, {0, 0, 1}, s.diffuse(vec3(0.3f), {2, 3, 4}));
+  s.rectangle({2, 2, 0}, {0, 0.4f, 0}, {0, 0, 0.4f}, s.diffuse(vec3(0), {12, 8, 6})); // facing -x
+  s.document.scene.instances.back().world_from_object[2] = vec4(-1, 0, 0, 0);
+  s.sphere({1, 1, 1}, 0.4f, s.diffuse(vec3(0.5f), {3, 2, 5}));
+  s.camera({0, 2, 6}, {0, 1, 0}, 45);
+  return s.document;
+}
+
+inline Document mirror_and_glass_scene() {
+  SceneMaker s(8, 8, 1);
+  int white = s.diffuse({0.7f, 0.6f, 0.5f}), light = s.diffuse({0.2f, 0.2f, 0.2f}, vec3(3));
+  s.closed_box({-2, -1, -2}, {2, 2, 3}, white);
+  s.rectangle({0, 1.9f, 0}, {1.2f, 0, 0}, {0, 0, 1.2f}, light);
+  Material glass;
+  glass.type = MaterialType::dielectric;
+  glass.absorption = {0.1f, 0.4f, 0.8f};
+  s.sphere({0.8f, -0.3f, 0.5f}, 0.7f, s.material(glass));
+  s.sphere({-0.8f, -0.3f, 0}, 0.7f,
+           s.material(strategy_material(MaterialType::mirror, {0.4f, 0.3f, 0.2f}, {0.5f, 0.6f, 0.6f})));
+  s.camera({0, 0.5f, 2.9f}, {0, 0, 0}, 60);
+  return s.document;
+}
+
+/// A textured floor under emissive copies of one mesh, a half-transparent screen between them.
+inline Document instances_scene() {
+  SceneMaker s(8, 8, 1);
+  auto texture = std::make_shared<Texture>();
+  texture->width = texture->height = 2;
+  texture->srgb = {255, 200, 100, 60, 120, 250, 200, 255, 200, 90, 60, 200};
+  s.document.scene.textures.push_back(texture);
+  Material floor;
+  floor.diffuse = vec3(0.8f);
+  floor.diffuse_texture = 0;
+  s.rectangle({0, 0, 0}, {0, 0, 3}, {3, 0, 0}, s.material(floor));
+  auto ball = std::make_shared<const Mesh>(sphere_mesh(36, 40, false));
+  int shine = s.diffuse(vec3(0.4f), {2, 3, 4});
+  for (float x : {-1.2f, 1.2f}) {
+    mat4 place = glm::translate(mat4(1), {x, 1.2f, 0});
+    s.mesh_shared(ball, shine, glm::scale(place, {0.5f * x, 0.7f, 0.8f}));
+  }
+  Material screen;
+  screen.diffuse = vec3(0.5f);
+  screen.opacity = 0.5f;
+  screen.emission = {1, 0.5f, 0.2f};
+  screen.two_sided_emission = true;
+  s.rectangle({0, 0.8f, 0.5f}, {0.3f, 0, 0}, {0, 0.8f, 0}, s.material(screen));
+  s.camera({0, 3, 5}, {0, 0.5f, 0}, 40);
+  return s.document;
+}
+
+inline Document sky_sun_and_lamp_scene() {
+  SceneMaker s(8, 8, 1);
+  int grey = s.diffuse({0.7f, 0.5f, 0.6f});
+  s.rectangle({0, 0, 0}, {0, 0, 3}, {3, 0, 0}, grey);
+  s.sphere({0, 0.8f, 0}, 0.8f,
+           s.material(strategy_material(MaterialType::phong, {0.3f, 0.3f, 0.4f}, {0.5f, 0.6f, 0.4f})));
+  s.disc({-1.5f, 1, 0.5f}, 0.6f, {0, 1, 0}, {0, 0, 1}, s.diffuse(vec3(0.2f), {4, 2, 1}));
+  s.constant_light({0.5f, 0.7f, 1});
+  LightDesc sun;
+  sun.type = LightType::directional;
+  sun.direction = {-1, -2, -1};
+  sun.color = {2, 1.5f, 1};
+  s.document.scene.lights.push_back(sun);
+  LightDesc lamp;
+  lamp.position = {1.5f, 1.5f, 1};
+  lamp.color = {2, 3, 1};
+  s.document.scene.lights.push_back(lamp);
+  s.camera({0, 3, 5}, {0, 0.5f, 0}, 45);
+  return s.document;
+}
+
+inline std::vector<NamedScene> strategy_scenes() {
+  using enum MaterialType;
+  Document cornell = cornell_flush(8, 8, 1, true).document;
+  return {{"Cornell box with blocks", cornell},
+          {"phong plates", plates_scene(strategy_material(phong, {0.3f, 0.4f, 0.2f}, {0.5f, 0.4f, 0.6f}))},
+          {"ggx plates", plates_scene(strategy_material(ggx, vec3(0), {0.8f, 0.7f, 0.9f}))},
+          {"mirror and glass", mirror_and_glass_scene()},
+          {"instances, texture, screen", instances_scene()},
+          {"sky, sun and lamp", sky_sun_and_lamp_scene()}};
+}
+
+} // namespace candela::test

@@ -1,0 +1,183 @@
+// All settings of the path that claim to be unbiased have the same expectation.
+
+#include "strategy_scenes.h"
+
+#include <array>
+
+namespace {
+
+using namespace candela;
+using namespace candela::test;
+
+constexpr int kBlocks = 4, kValues = 3 * kBlocks;
+
+struct Estimate {
+  std::array<double, kValues> mean{}, variance{};
+};
+
+/// Means of the four quadrants. The variance is that of independent samples; the better spread ones of the
+/// other samplers have no more, so that a test by it is on the safe side.
+Estimate estimate(const Film& film) {
+  Estimate e;
+  int w = film.width() / 2, h = film.height() / 2;
+  double n = w * h;
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x)
+      for (int c = 0; c < 3; ++c) {
+        auto i = static_cast<std::size_t>(3 * (y / h * 2 + x / w) + c);
+        e.mean[i] += static_cast<double>(film.mean(x, y)[c]) / n;
+        e.variance[i] += static_cast<double>(film.variance_of_mean(x, y)[c]) / (n * n);
+      }
+  return e;
+}
+
+std::string describe(const RenderSettings& s) {
+  Document d;
+  d.settings = s;
+  std::string text;
+  for (const char* key : {"path.light_sampling", "path.mis_heuristic", "path.direction_sampling", "path.rr",
+                          "path.rr_depth", "path.light_samples", "sampler.type", "sampler.seed"})
+    text += std::string(key) + "=" + field_text(*find_setting(key), d) + " ";
+  return text;
+}
+
+/// A cap that all share, for without Russian roulette nothing else ends a path in a closed scene.
+constexpr int kDepth = 6;
+
+Document with_cap(Document d) {
+  d.settings.path.max_depth = kDepth;
+  return d;
+}
+
+Estimate reference(const Document& document, int spp) {
+  Document d = with_cap(document);
+  d.settings.sampler.type = SamplerType::independent;
+  d.settings.sampler.seed = sampler_seed(1000);
+  d.settings.stop.spp = spp;
+  return estimate(render(d));
+}
+
+void expect_same(const Estimate& a, const Estimate& b, int settings) {
+  for (std::size_t i = 0; i < kValues; ++i) {
+    double sigma = std::sqrt(a.variance[i] + b.variance[i]);
+    EXPECT_GT(normal_p_value((a.mean[i] - b.mean[i]) / sigma), sidak_threshold(settings * kValues))
+        << "block " << i / 3 << ", channel " << i % 3 << ": " << a.mean[i] << " against " << b.mean[i]
+        << " +- " << sigma << "; " << seed_note();
+  }
+}
+
+struct LightStrategy {
+  LightSampling light;
+  MisHeuristic heuristic;
+};
+constexpr LightStrategy kLightStrategies[] = {{LightSampling::bsdf, MisHeuristic::power},
+                                              {LightSampling::nee, MisHeuristic::power},
+                                              {LightSampling::mis, MisHeuristic::balance},
+                                              {LightSampling::mis, MisHeuristic::power}};
+constexpr DirectionSampling kDirections[] = {DirectionSampling::uniform, DirectionSampling::cosine,
+                                             DirectionSampling::bsdf};
+struct Roulette {
+  RussianRoulette how;
+  int depth;
+};
+constexpr Roulette kRoulettes[] = {{RussianRoulette::off, 0},        {RussianRoulette::throughput, 0},
+                                   {RussianRoulette::throughput, 1}, {RussianRoulette::throughput, 5},
+                                   {RussianRoulette::fixed, 0},      {RussianRoulette::fixed, 1},
+                                   {RussianRoulette::fixed, 5}};
+
+Document with_strategy(Document d, const LightStrategy& light, DirectionSampling direction,
+                       const Roulette& rr, int light_samples, SamplerType sampler, int seed) {
+  PathSettings& path = d.settings.path;
+  path.light_sampling = light.light;
+  path.mis_heuristic = light.heuristic;
+  path.direction_sampling = direction;
+  path.rr = rr.how;
+  path.rr_depth = rr.depth;
+  path.rr_probability = 0.7f;
+  path.light_samples = light_samples;
+  d.settings.sampler.type = sampler;
+  d.settings.sampler.seed = seed;
+  return with_cap(d);
+}
+
+/// Every way to find light with every density of directions; what else there is to choose is drawn anew in
+/// each run.
+void expect_one_expectation(const NamedScene& scene, int spp) {
+  SCOPED_TRACE(scene.name);
+  Estimate expected = reference(scene.document, 4 * spp);
+  std::uint64_t draw = 0;
+  auto pick = [&](std::uint64_t n) { return hash_combine(fresh_seed(), ++draw) % n; };
+  for (const LightStrategy& light : kLightStrategies)
+    for (DirectionSampling direction : kDirections) {
+      Document d = with_strategy(scene.document, light, direction, kRoulettes[pick(7)],
+                                 1 + 2 * static_cast<int>(pick(2)), static_cast<SamplerType>(pick(3)),
+                                 sampler_seed(++draw));
+      d.settings.stop.spp = spp;
+      SCOPED_TRACE(describe(d.settings));
+      expect_same(estimate(render(d)), expected, 72);
+    }
+}
+
+TEST(StrategyStatistical, CornellBox) { expect_one_expectation(strategy_scenes()[0], 1024); }
+TEST(StrategyStatistical, PhongPlates) { expect_one_expectation(strategy_scenes()[1], 512); }
+TEST(StrategyStatistical, GgxPlates) { expect_one_expectation(strategy_scenes()[2], 512); }
+TEST(StrategyStatistical, MirrorAndGlass) { expect_one_expectation(strategy_scenes()[3], 512); }
+TEST(StrategyStatistical, InstancesTextureAndScreen) { expect_one_expectation(strategy_scenes()[4], 512); }
+TEST(StrategyStatistical, SkySunAndLamp) { expect_one_expectation(strategy_scenes()[5], 512); }
+
+/// Everything with everything.
+TEST(StrategyHeavy, AllCombinationsAgree) {
+  auto scenes = strategy_scenes();
+  int settings = static_cast<int>(scenes.size()) * 4 * 3 * 7 * 2 * 3;
+  std::uint64_t salt = 2000;
+  for (const NamedScene& scene : scenes) {
+    SCOPED_TRACE(scene.name);
+    Estimate expected = reference(scene.document, 4096);
+    for (const LightStrategy& light : kLightStrategies)
+      for (DirectionSampling direction : kDirections)
+        for (const Roulette& rr : kRoulettes)
+          for (int light_samples : {1, 3})
+            for (SamplerType sampler :
+                 {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
+              Document d = with_strategy(scene.document, light, direction, rr, light_samples, sampler,
+                                         sampler_seed(++salt));
+              d.settings.stop.spp = 512;
+              SCOPED_TRACE(describe(d.settings));
+              expect_same(estimate(render(d)), expected, settings);
+            }
+  }
+}
+
+TEST(StrategyStatistical, RouletteKeepsTheMeanOfUnlimitedPaths) {
+  Document d = mirror_and_glass_scene();
+  d.settings.sampler.type = SamplerType::independent;
+  auto with = [&](RussianRoulette how, int depth, float probability, int spp, std::uint64_t salt) {
+    Document r = d;
+    r.settings.path.rr = how;
+    r.settings.path.rr_depth = depth;
+    r.settings.path.rr_probability = probability;
+    r.settings.sampler.seed = sampler_seed(salt);
+    r.settings.stop.spp = spp;
+    return estimate(render(r));
+  };
+  Estimate off = with(RussianRoulette::off, 0, 1, 128, 1); // ends where the throughput is below the floats
+  expect_same(with(RussianRoulette::throughput, 0, 1, 512, 2), off, 3);
+  expect_same(with(RussianRoulette::throughput, 5, 1, 512, 3), off, 3);
+  expect_same(with(RussianRoulette::fixed, 2, 0.8f, 512, 4), off, 3);
+}
+
+TEST(StrategyStatistical, ClampingIsTheOnlyThingThatLosesLight) {
+  Document d = cornell_flush(8, 8, 256, true).document;
+  d.settings.sampler.seed = sampler_seed(5);
+  Film plain = render(d);
+  d.settings.path.clamp = 0.5f;
+  Film clamped = render(d);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x)
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_LE(clamped.mean(x, y)[c], plain.mean(x, y)[c] * 1.00001f);
+        EXPECT_LE(clamped.mean(x, y)[c], 0.5f);
+      }
+}
+
+} // namespace
