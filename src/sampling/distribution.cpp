@@ -80,7 +80,12 @@ PiecewiseConstant1D::Sample PiecewiseConstant1D::sample(float u) const {
   float width = cdf_[cell + 1] - cdf_[cell];
   float offset = width > 0 ? (u - cdf_[cell]) / width : 0;
   float x = (static_cast<float>(cell) + offset) / static_cast<float>(size());
-  return {std::min(x, kOneMinusEpsilon), pdf_[cell], static_cast<std::uint32_t>(cell)};
+  // Rounding must not carry x into a neighbour, which may have no weight.
+  if (cell_of(x) < cell)
+    x = std::nextafter(x, 1.0f);
+  else if (cell_of(x) > cell)
+    x = std::nextafter(x, 0.0f);
+  return {x, pdf_[cell], static_cast<std::uint32_t>(cell)};
 }
 
 PiecewiseConstant2D::PiecewiseConstant2D(std::span<const float> weights, std::size_t width,
@@ -96,11 +101,7 @@ PiecewiseConstant2D::PiecewiseConstant2D(std::span<const float> weights, std::si
   rows_ = PiecewiseConstant1D(row_integrals);
 }
 
-float PiecewiseConstant2D::pdf(vec2 p) const {
-  auto n = static_cast<float>(cells_.size());
-  std::size_t row = std::min(static_cast<std::size_t>(p.y * n), cells_.size() - 1);
-  return rows_.pdf(p.y) * cells_[row].pdf(p.x);
-}
+float PiecewiseConstant2D::pdf(vec2 p) const { return rows_.pdf(p.y) * cells_[rows_.cell_of(p.y)].pdf(p.x); }
 
 PiecewiseConstant2D::Sample PiecewiseConstant2D::sample(vec2 u) const {
   PiecewiseConstant1D::Sample row = rows_.sample(u.y);

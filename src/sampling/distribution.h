@@ -68,10 +68,11 @@ public:
   std::size_t size() const { return pdf_.size(); }
   /// Of the weights as a function on [0, 1): their mean.
   float integral() const { return integral_; }
-  float pdf(float x) const {
-    auto n = static_cast<float>(size());
-    return pdf_[std::min(static_cast<std::size_t>(x * n), size() - 1)];
+  /// x in [0, 1).
+  std::size_t cell_of(float x) const { // the product of the two is exact in double precision
+    return static_cast<std::size_t>(static_cast<double>(x) * static_cast<double>(size()));
   }
+  float pdf(float x) const { return pdf_[cell_of(x)]; }
   Sample sample(float u) const;
 
 private:

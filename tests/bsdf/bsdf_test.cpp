@@ -138,6 +138,21 @@ TEST(Bsdf, EdgesOfTheSquareAreHarmless) {
   }
 }
 
+/// Of the lobes without delta: u.z runs over those.
+DirectionTest test_model(const NamedBsdf& m, vec3 wo, std::size_t count, std::uint64_t stream) {
+  Random random(stream);
+  float delta = bsdf_delta_probability(m.bsdf, wo);
+  auto draw = [&](std::size_t) -> std::optional<vec3> {
+    vec3 u = random.three();
+    u.z = std::min(delta + u.z * (1 - delta), kOneMinusEpsilon);
+    std::optional<BsdfSample> s = bsdf_sample(m.bsdf, wo, u);
+    if (!s) return std::nullopt;
+    return s->wi;
+  };
+  auto pdf = [&](vec3 wi) { return double(bsdf_pdf(m.bsdf, wo, wi)) / (1 - double(delta)); };
+  return test_directions(SphereBins(reflect_about_normal(wo), m.width), count, draw, pdf);
+}
+
 TEST(BsdfStatistical, DirectionsFollowThePdf) {
   SCOPED_TRACE(seed_note());
   std::vector<NamedBsdf> models = glossy_models();
@@ -146,23 +161,29 @@ TEST(BsdfStatistical, DirectionsFollowThePdf) {
   std::uint64_t stream = 100;
   for (const NamedBsdf& m : models) {
     for (vec3 wo : outgoing) {
-      Random random(stream++);
-      float delta = bsdf_delta_probability(m.bsdf, wo);
-      // Delta lobes are left out: u.z runs over the others.
-      auto draw = [&](std::size_t) -> std::optional<vec3> {
-        vec3 u = random.three();
-        u.z = std::min(delta + u.z * (1 - delta), kOneMinusEpsilon);
-        std::optional<BsdfSample> s = bsdf_sample(m.bsdf, wo, u);
-        if (!s) return std::nullopt;
-        return s->wi;
-      };
-      auto pdf = [&](vec3 wi) { return double(bsdf_pdf(m.bsdf, wo, wi)) / (1 - double(delta)); };
-      DirectionTest t = test_directions(SphereBins(reflect_about_normal(wo), m.width), 100000, draw, pdf);
+      DirectionTest t = test_model(m, wo, 100000, stream++);
       EXPECT_GT(t.chi_square.p_value, threshold)
           << m.name << " wo.z " << wo.z << " pdf integral " << t.pdf_integral;
       EXPECT_LT(t.pdf_integral, 1 + 2e-3) << m.name << " wo.z " << wo.z;
     }
   }
+}
+
+/// Fewer cases with enough draws to see 1 % in a lobe's width.
+TEST(BsdfStatistical, LobesHaveTheRightWidth) {
+  SCOPED_TRACE(seed_note());
+  const NamedBsdf models[] = {{"phong 40", Phong{vec3(0.1f), vec3(0.8f), 40}, 0.3},
+                              {"phong 1000", Phong{vec3(0), vec3(0.9f), 1000}, 0.06},
+                              {"ggx 0.1", Ggx{vec3(0.9f), 0.1f}, 0.02},
+                              {"ggx 0.5", Ggx{vec3(0.9f), 0.5f}, 0.5},
+                              {"ggx 1", Ggx{vec3(0.9f), 1}, 2}};
+  const vec3 outgoing[] = {direction(radians(15), 1), direction(radians(70), -2)};
+  std::uint64_t stream = 500;
+  for (const NamedBsdf& m : models)
+    for (vec3 wo : outgoing)
+      EXPECT_GT(test_model(m, wo, 2000000, stream++).chi_square.p_value,
+                sidak_threshold(static_cast<int>(std::size(models) * std::size(outgoing))))
+          << m.name << " wo.z " << wo.z;
 }
 
 TEST(BsdfStatistical, MeanWeightIsTheAlbedo) {

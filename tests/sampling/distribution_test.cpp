@@ -134,6 +134,24 @@ TEST(PiecewiseConstant, UniformWhereAllWeightsAreZero) {
   EXPECT_FLOAT_EQ(d.sample(0.3f).pdf, 1);
 }
 
+TEST(PiecewiseConstant, RoundingKeepsToTheCell) {
+  for (std::size_t n : {3u, 7u, 100u, 1001u, 4096u}) {
+    std::vector<float> weights(n);
+    for (std::size_t i = 0; i < n; i += 2) weights[i] = 1;
+    PiecewiseConstant1D d(weights);
+    // Either side of where one cell ends and the next begins.
+    for (std::size_t i = 0; i <= n / 2; ++i) {
+      float u = static_cast<float>(i) / static_cast<float>(n / 2 + n % 2);
+      for (float v : {u, std::nextafter(u, 0.0f), std::nextafter(u, 1.0f)}) {
+        PiecewiseConstant1D::Sample s = d.sample(std::min(v, kOneMinusEpsilon));
+        ASSERT_EQ(s.cell % 2, 0u);
+        ASSERT_EQ(d.cell_of(s.x), s.cell);
+        ASSERT_GT(d.pdf(s.x), 0);
+      }
+    }
+  }
+}
+
 TEST(PiecewiseConstant, ZeroTailIsNeverDrawn) {
   // A distribution function that rounding may leave a little below 1 before the tail.
   std::vector<float> weights(1000, 0.1f);
@@ -162,8 +180,8 @@ TEST(PiecewiseConstantStatistical, TwoDimensions) {
     PiecewiseConstant2D::Sample s = d.sample({ux, unit(random)});
     ASSERT_TRUE(s.p.x >= 0 && s.p.x < 1 && s.p.y >= 0 && s.p.y < 1);
     ASSERT_FLOAT_EQ(s.pdf, d.pdf(s.p));
-    observed[static_cast<std::size_t>(s.p.y * kPartsY) * kPartsX +
-             static_cast<std::size_t>(s.p.x * kPartsX)] += 1;
+    observed[static_cast<std::size_t>(double(s.p.y) * kPartsY) * kPartsX +
+             static_cast<std::size_t>(double(s.p.x) * kPartsX)] += 1;
   }
   for (std::size_t y = 0; y < kPartsY; ++y)
     for (std::size_t x = 0; x < kPartsX; ++x)
