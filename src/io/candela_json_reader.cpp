@@ -28,8 +28,7 @@ public:
     JsonValue root = tree_.root();
     expect(root, JsonType::object, "scene");
     std::map<std::string, JsonValue> parts;
-    for (auto it = root.begin(); it != root.end(); ++it) {
-      JsonValue key = *it, value = *++it;
+    for (auto [key, value] : root.members()) {
       if (std::ranges::find(kKeys, key.string()) == std::end(kKeys)) throw unknown_key(key, "scene", kKeys);
       parts.emplace(key.string(), value);
     }
@@ -65,8 +64,7 @@ private:
   /// Reads the settings whose keys begin with `prefix`.
   void settings_below(JsonValue object, const std::string& element, const std::string& prefix) {
     expect(object, JsonType::object, element);
-    for (auto it = object.begin(); it != object.end(); ++it) {
-      JsonValue key = *it, value = *++it;
+    for (auto [key, value] : object.members()) {
       std::string full = prefix + key.string(), name = fmt::format("{}.{}", element, key.string());
       std::vector<std::string_view> known; // the keys that fit here
       bool is_group = false;
@@ -96,8 +94,7 @@ private:
     std::vector<std::string_view> known;
     for (const auto& row : settings_table())
       if (row.key.starts_with(kPrefix)) known.push_back(row.key.substr(kPrefix.size()));
-    for (auto it = object.begin(); it != object.end(); ++it) {
-      JsonValue key = *it, value = *++it;
+    for (auto [key, value] : object.members()) {
       std::string full = std::string(kPrefix) + key.string();
       const auto* row = find_setting(full);
       if (row == nullptr) throw unknown_key(key, "camera", known);
@@ -157,8 +154,7 @@ private:
     auto known = keys_of(material_fields(), {"name", "diffuse_texture"});
     each_object(array, "materials", [&](JsonValue object, const std::string& element) {
       Material material;
-      for (auto it = object.begin(); it != object.end(); ++it) {
-        JsonValue key = *it, value = *++it;
+      for (auto [key, value] : object.members()) {
         std::string name = fmt::format("{}.{}", element, key.string());
         if (key.string() == "name")
           material.name = read_string(value, name);
@@ -185,8 +181,7 @@ private:
     auto known = keys_of(light_fields(), {"name"});
     each_object(array, "lights", [&](JsonValue object, const std::string& element) {
       LightDesc light;
-      for (auto it = object.begin(); it != object.end(); ++it) {
-        JsonValue key = *it, value = *++it;
+      for (auto [key, value] : object.members()) {
         if (key.string() == "name")
           light.name = read_string(value, element + ".name");
         else if (!read_row(light_fields(), light, key, value, element))
@@ -200,14 +195,12 @@ private:
 
   void meshes(JsonValue object) {
     expect(object, JsonType::object, "meshes");
-    for (auto it = object.begin(); it != object.end(); ++it) {
-      JsonValue key = *it, value = *++it;
+    for (auto [key, value] : object.members()) {
       std::string element = fmt::format("meshes.{}", key.string().substr(0, 60));
       expect(value, JsonType::object, element);
       std::string name = key.string();
       std::optional<JsonValue> file;
-      for (auto part = value.begin(); part != value.end(); ++part) {
-        JsonValue part_key = *part, part_value = *++part;
+      for (auto [part_key, part_value] : value.members()) {
         if (part_key.string() == "name") name = read_string(part_value, element + ".name");
         if (part_key.string() == "file") file = part_value;
       }
@@ -216,11 +209,9 @@ private:
         continue;
       }
       constexpr std::string_view kKeys[] = {"file", "name"};
-      for (auto part = value.begin(); part != value.end(); ++part) {
-        if (std::ranges::find(kKeys, (*part).string()) == std::end(kKeys))
-          throw unknown_key(*part, element, kKeys);
-        ++part;
-      }
+      for (auto [part_key, part_value] : value.members())
+        if (std::ranges::find(kKeys, part_key.string()) == std::end(kKeys))
+          throw unknown_key(part_key, element, kKeys);
       meshes_[key.string()] = mesh_of_file(*file, name, element + ".file");
     }
   }
@@ -240,8 +231,7 @@ private:
     constexpr std::string_view kKeys[] = {"name",     "shape",     "mesh",      "file",
                                           "material", "materials", "transform", "radius"};
     std::map<std::string_view, JsonValue> parts;
-    for (auto it = object.begin(); it != object.end(); ++it) {
-      JsonValue key = *it, value = *++it;
+    for (auto [key, value] : object.members()) {
       auto known = std::ranges::find(kKeys, key.string());
       if (known == std::end(kKeys)) throw unknown_key(key, element, kKeys);
       parts.emplace(*known, value);
@@ -325,8 +315,7 @@ private:
         for (JsonValue value : *by_slot) *slot++ = material_of(value, name);
       } else {
         expect(*by_slot, JsonType::object, name);
-        for (auto it = by_slot->begin(); it != by_slot->end(); ++it) {
-          JsonValue key = *it, value = *++it;
+        for (auto [key, value] : by_slot->members()) {
           auto slot = std::ranges::find(slots, key.string());
           std::vector<std::string_view> names(slots.begin(), slots.end());
           if (slot == slots.end()) throw unknown_key(key, name, names);

@@ -70,8 +70,7 @@ Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view 
   mesh.name = name;
   // Counts are checked against those of other members, which may come later.
   std::optional<JsonValue> triangles, normals, uvs, slots;
-  for (auto it = object.begin(); it != object.end(); ++it) {
-    JsonValue key = *it, value = *++it;
+  for (auto [key, value] : object.members()) {
     std::string where = fmt::format("{}.{}", element, key.string());
     if (key.string() == "positions") {
       mesh.positions = read_vectors<vec3, 3>(value, where);

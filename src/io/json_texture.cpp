@@ -12,8 +12,7 @@ JsonTexture read_json_texture(JsonValue object, std::string_view element) {
   JsonTexture out;
   auto picture = std::make_shared<Texture>();
   std::optional<JsonValue> srgb;
-  for (auto it = object.begin(); it != object.end(); ++it) {
-    JsonValue key = *it, value = *++it;
+  for (auto [key, value] : object.members()) {
     std::string name = fmt::format("{}.{}", element, key.string());
     if (key.string() == "file")
       out.file = value;

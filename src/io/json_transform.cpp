@@ -39,8 +39,7 @@ dmat4 read_look_at(JsonValue value, std::string_view element) {
   constexpr std::string_view kKeys[] = {"origin", "target", "up"};
   expect(value, JsonType::object, element);
   dvec3 origin(0), target(0, 0, 1), up(0, 1, 0);
-  for (auto it = value.begin(); it != value.end(); ++it) {
-    JsonValue key = *it, part = *++it;
+  for (auto [key, part] : value.members()) {
     std::string name = fmt::format("{}.{}", element, key.string());
     if (key.string() == "origin")
       origin = dvec3(read_vec3(part, name));
@@ -65,7 +64,7 @@ dmat4 read_step(JsonValue step, std::string_view element) {
   if (step.size() != 1)
     throw input_error(step.where(), element, fmt::format("{} keys", step.size()),
                       "give one of translate, rotate, scale, matrix, look_at");
-  JsonValue key = *step.begin(), value = *++step.begin();
+  auto [key, value] = step.members().front();
   std::string name = fmt::format("{}.{}", element, key.string());
   if (key.string() == "translate") return glm::translate(dmat4(1), dvec3(read_vec3(value, name)));
   if (key.string() == "rotate") return read_rotate(value, name);

@@ -183,6 +183,19 @@ JsonValue::Iterator& JsonValue::Iterator::operator++() {
   return *this;
 }
 
+std::vector<JsonValue::Member> JsonValue::members() const {
+  std::vector<Member> out;
+  out.reserve(size());
+  // The nodes of an object alternate between keys and values.
+  for (Iterator it = begin(); it != end();) {
+    JsonValue key = *it;
+    ++it;
+    out.push_back({key, *it});
+    ++it;
+  }
+  return out;
+}
+
 std::string json_quoted(std::string_view text) {
   return nlohmann::json(std::string(text)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

@@ -26,8 +26,7 @@ public:
   const std::string& string() const; ///< unescaped; of strings only
   std::uint32_t size() const;        ///< elements of an array, members of an object
 
-  /// Forward iteration: over the elements of an array; over an object it alternates between key (a string)
-  /// and value.
+  /// Forward iteration over the elements of an array.
   class Iterator {
   public:
     Iterator(const JsonTree& tree, std::uint32_t node) : tree_(&tree), node_(node) {}
@@ -42,9 +41,17 @@ public:
   Iterator begin() const { return {*tree_, node_ + 1}; }
   Iterator end() const;
 
+  struct Member;
+  std::vector<Member> members() const; ///< of an object, in the order of the file
+
 private:
   const JsonTree* tree_;
   std::uint32_t node_;
+};
+
+struct JsonValue::Member {
+  JsonValue key; ///< a string
+  JsonValue value;
 };
 
 /// The parsed file. Nodes lie in document order in one array, 16 bytes each, so that a mesh of millions of

@@ -1,0 +1,84 @@
+// The scenes in scenes/: each reads without a word and says what its description promises.
+
+#include "scene_files.h"
+
+#include <algorithm>
+
+namespace candela {
+namespace {
+
+using test::mesh_of;
+using test::SceneFiles;
+
+std::string shipped(const std::string& name) { return CANDELA_TEST_SOURCE_DIR "/scenes/" + name; }
+
+TEST(ShippedScenes, AreReadWithoutWarningsAndRoundTrip) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(shipped(""))) {
+    if (entry.path().extension() != ".json") continue;
+    SCOPED_TRACE(entry.path().string());
+    ++count;
+    LoadedScene loaded = read_scene(entry.path().string());
+    EXPECT_EQ(loaded.warnings, std::vector<Warning>{});
+    EXPECT_EQ(document_problem(loaded.document), "");
+    EXPECT_NE(test::read_text(entry.path().string()).find("\"description\": \""), std::string::npos);
+    SceneFiles files;
+    write_candela_json(loaded.document, files / "copy.json");
+    EXPECT_TRUE(same_content(files.read("copy.json").document, loaded.document));
+  }
+  EXPECT_GE(count, 6);
+}
+
+const Instance& named(const LoadedScene& scene, const std::string& name) {
+  return *std::ranges::find(scene.document.scene.instances, name, &Instance::name);
+}
+
+TEST(ShippedScenes, TheCornellBoxIsTheMeasuredOne) {
+  LoadedScene box = read_scene(shipped("cornell_box.json"));
+  Bounds3 bounds = scene_bounds(box.document.scene);
+  EXPECT_EQ(bounds.lo, vec3(0));
+  EXPECT_EQ(bounds.hi, vec3(556, 548.8f, 559.2f));
+  EXPECT_EQ(box.document.scene.instances.size(), 8u);
+  for (const char* name : {"floor", "ceiling", "back wall", "left wall", "right wall"}) {
+    const Mesh& wall = *std::get<std::shared_ptr<const Mesh>>(named(box, name).shape);
+    for (const uvec3& t : wall.triangles) {
+      vec3 a = wall.positions[t.x];
+      vec3 normal = glm::cross(wall.positions[t.y] - a, wall.positions[t.z] - a);
+      EXPECT_GT(glm::dot(normal, vec3(278, 274, 280) - a), 0) << name << " faces inwards";
+    }
+  }
+}
+
+TEST(ShippedScenes, TheFlushLightFillsItsHole) {
+  LoadedScene box = read_scene(shipped("cornell_flush.json"));
+  const Instance& light = named(box, "light");
+  EXPECT_EQ(transform_vector(light.world_from_object, {0, 0, 1}), vec3(0, -1, 0)) << "it faces down";
+  const auto& ceiling = std::get<std::shared_ptr<const Mesh>>(named(box, "ceiling").shape)->positions;
+  double area = 0;
+  for (int corner = 0; corner < 4; ++corner) {
+    vec3 p = transform_point(light.world_from_object, {corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, 0});
+    EXPECT_TRUE(std::ranges::find(ceiling, p) != ceiling.end()) << p.x << " " << p.y << " " << p.z;
+  }
+  const Mesh& mesh = *std::get<std::shared_ptr<const Mesh>>(named(box, "ceiling").shape);
+  for (const uvec3& t : mesh.triangles) {
+    glm::dvec3 a(mesh.positions[t.x]), b(mesh.positions[t.y]), c(mesh.positions[t.z]);
+    double y = glm::cross(b - a, c - a).y;
+    EXPECT_LT(y, 0) << "faces down";
+    area -= 0.5 * y;
+  }
+  EXPECT_NEAR(area, 552.8 * 559.2 - 130 * 105, 0.1);
+}
+
+TEST(ShippedScenes, NothingInTheFurnaceLosesLight) {
+  LoadedScene furnace = read_scene(shipped("furnace.json"));
+  for (const Material& m : furnace.document.scene.materials) {
+    if (m.type == MaterialType::diffuse) { EXPECT_EQ(m.diffuse, vec3(1)); }
+    if (m.type == MaterialType::mirror) { EXPECT_EQ(m.diffuse + m.specular, vec3(1)); }
+    if (m.type == MaterialType::dielectric) { EXPECT_EQ(m.transmittance - m.absorption, vec3(1)); }
+  }
+  ASSERT_EQ(furnace.document.scene.lights.size(), 1u);
+  EXPECT_EQ(furnace.document.scene.lights[0].color, vec3(1));
+}
+
+} // namespace
+} // namespace candela
