@@ -7,6 +7,7 @@ namespace candela::accel_detail {
 
 namespace {
 
+using simd::IntVec4;
 using simd::max4;
 using simd::min4;
 using simd::Vec4;
@@ -18,24 +19,39 @@ struct Box4 {
   void grow(Vec4 low, Vec4 high) { lo = min4(lo, low), hi = max4(hi, high); }
   void grow(const Box4& b) { grow(b.lo, b.hi); }
   float half_area() const {
-    Vec4 d = hi - lo;
-    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+    Vec4 d = hi - lo, turned = __builtin_shufflevector(d, d, 1, 2, 0, 3), product = d * turned;
+    return product[0] + product[1] + product[2];
   }
 };
 
-// The fourth lane holds the bits of index and kind; no result depends on it.
-inline Vec4 low(const BuildRef& ref) { return *reinterpret_cast<const Vec4*>(ref.lo.data()); }
-inline Vec4 high(const BuildRef& ref) { return *reinterpret_cast<const Vec4*>(ref.hi.data()); }
+/// The fourth lane is 0: index and kind, which lie there, look like denormal numbers, and those are slow.
+inline Vec4 xyz(const std::array<float, 3>& p) {
+  return reinterpret_cast<Vec4>(*reinterpret_cast<const IntVec4*>(p.data()) & IntVec4{-1, -1, -1, 0});
+}
+inline Vec4 low(const BuildRef& ref) { return xyz(ref.lo); }
+inline Vec4 high(const BuildRef& ref) { return xyz(ref.hi); }
 inline Vec4 centroid(const BuildRef& ref) { return (low(ref) + high(ref)) * 0.5f; }
 
-constexpr int kMaxBins = 32;
+constexpr int kMaxBins = 16;
 
-struct Bin {
-  Box4 box;
-  std::uint32_t count = 0;
-};
+/// Only the first `size` of each axis are in use and set: most ranges are small, and clearing bins is a good
+/// part of their time.
 struct Bins {
-  std::array<std::array<Bin, kMaxBins>, 3> axis;
+  std::array<std::array<Box4, kMaxBins>, 3> box;
+  std::array<std::array<std::uint32_t, kMaxBins>, 3> count;
+  std::size_t size;
+
+  explicit Bins(int bins) : size(static_cast<std::size_t>(bins)) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t i = 0; i < size; ++i) box[axis][i] = Box4{}, count[axis][i] = 0;
+  }
+  void merge(const Bins& b) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (std::size_t i = 0; i < size; ++i) {
+        box[axis][i].grow(b.box[axis][i]);
+        count[axis][i] += b.count[axis][i];
+      }
+  }
 };
 
 /// The boxes of a range: of the primitives and of their centroids.
@@ -49,7 +65,7 @@ struct RangeBounds {
     centroids.grow(c, c);
     kinds |= 1u << static_cast<std::uint32_t>(ref.kind);
   }
-  void grow(const RangeBounds& b) { box.grow(b.box), centroids.grow(b.centroids), kinds |= b.kinds; }
+  void merge(const RangeBounds& b) { box.grow(b.box), centroids.grow(b.centroids), kinds |= b.kinds; }
 };
 
 /// Maps centroids to bins.
@@ -67,8 +83,8 @@ struct Binning {
       }
   }
   bool usable(int a) const { return scale[a] > 0; }
-  /// Always in range: the product lies in [0, 0.9999 bins].
-  int bin(Vec4 c, int a) const { return static_cast<int>((c[a] - origin[a]) * scale[a]); }
+  /// Of all axes; in range, for the product lies in [0, 0.9999 bins].
+  IntVec4 bin(Vec4 c) const { return __builtin_convertvector((c - origin) * scale, IntVec4); }
 };
 
 struct Split {
@@ -87,7 +103,7 @@ public:
 
   void build() {
     auto count = static_cast<std::uint32_t>(bvh_.refs.size());
-#pragma omp parallel
+#pragma omp parallel if (count >= kTaskRange)
 #pragma omp single
     build_range(0, 0, count, range_bounds(0, count), 1);
   }
@@ -102,27 +118,20 @@ private:
 
   BuildRef* refs() { return bvh_.refs.data(); }
 
+  /// Runs visit(from, to, result) over the range, in parallel chunks with a result each if it is large.
   template <class Result, class Visit>
   void reduce(std::uint32_t begin, std::uint32_t end, Result& result, Visit visit) {
     if (end - begin < kParallelRange) {
       visit(begin, end, result);
       return;
     }
-    std::array<Result, kChunks> partial;
+    std::vector<Result> partial(kChunks, result);
     auto at = [=](std::uint32_t chunk) {
       return begin + static_cast<std::uint32_t>(std::uint64_t{end - begin} * chunk / kChunks);
     };
 #pragma omp taskloop default(shared) grainsize(1)
     for (std::uint32_t chunk = 0; chunk < kChunks; ++chunk) visit(at(chunk), at(chunk + 1), partial[chunk]);
-    for (const Result& p : partial) merge(result, p);
-  }
-  static void merge(RangeBounds& a, const RangeBounds& b) { a.grow(b); }
-  static void merge(Bins& a, const Bins& b) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t i = 0; i < kMaxBins; ++i) {
-        a.axis[axis][i].box.grow(b.axis[axis][i].box);
-        a.axis[axis][i].count += b.axis[axis][i].count;
-      }
+    for (const Result& p : partial) result.merge(p);
   }
 
   RangeBounds range_bounds(std::uint32_t begin, std::uint32_t end) {
@@ -137,32 +146,63 @@ private:
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
       if (!binning.usable(axis)) continue;
-      const auto& row = bins.axis[static_cast<std::size_t>(axis)];
+      const auto& box = bins.box[static_cast<std::size_t>(axis)];
+      const auto& count = bins.count[static_cast<std::size_t>(axis)];
       std::array<float, kMaxBins> right_cost;
-      Box4 box;
-      std::uint32_t count = 0;
-      for (int i = binning.bins - 1; i > 0; --i) {
-        const Bin& bin = row[static_cast<std::size_t>(i)];
-        box.grow(bin.box);
-        count += bin.count;
-        right_cost[static_cast<std::size_t>(i)] = count ? box.half_area() * packs(count) : kInfinity;
+      Box4 side;
+      std::uint32_t in_side = 0;
+      for (std::size_t i = bins.size - 1; i > 0; --i) {
+        side.grow(box[i]);
+        in_side += count[i];
+        right_cost[i] = in_side ? side.half_area() * packs(in_side) : kInfinity;
       }
-      box = Box4{}, count = 0;
-      for (int i = 1; i < binning.bins; ++i) {
-        const Bin& bin = row[static_cast<std::size_t>(i - 1)];
-        box.grow(bin.box);
-        count += bin.count;
-        if (!count) continue;
-        float cost = box.half_area() * packs(count) + right_cost[static_cast<std::size_t>(i)];
-        if (cost < best.cost) best = {cost, axis, i};
+      side = Box4{}, in_side = 0;
+      for (std::size_t i = 1; i < bins.size; ++i) {
+        side.grow(box[i - 1]);
+        in_side += count[i - 1];
+        if (!in_side) continue;
+        float cost = side.half_area() * packs(in_side) + right_cost[i];
+        if (cost < best.cost) best = {cost, axis, static_cast<int>(i)};
       }
     }
     return best;
   }
 
-  int bin_count(std::uint32_t count) const {
-    if (quality_ == BuildQuality::fast) return count < 64 ? 8 : 16;
-    return count < 4096 ? 16 : kMaxBins;
+  /// More would be more work in the many small ranges, and gain nothing (32: no more rays per second).
+  static int bin_count(std::uint32_t count) { return count <= 4 ? 4 : count <= 32 ? 8 : kMaxBins; }
+
+  void fill(const Binning& binning, std::uint32_t begin, std::uint32_t end, Bins& bins) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const BuildRef& ref = refs()[i];
+      Vec4 lo = low(ref), hi = high(ref);
+      IntVec4 bin = binning.bin(centroid(ref));
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        auto b = static_cast<std::size_t>(bin[static_cast<int>(axis)]);
+        bins.box[axis][b].grow(lo, hi);
+        ++bins.count[axis][b];
+      }
+    }
+  }
+
+  /// Partitions the range and takes the bounds of both sides on the way; gives the first index of the right
+  /// one.
+  template <class IsLeft>
+  std::uint32_t partition(std::uint32_t begin, std::uint32_t end, IsLeft is_left, RangeBounds& left,
+                          RangeBounds& right) {
+    if (end - begin >= kParallelRange) {
+      BuildRef* mid = std::partition(refs() + begin, refs() + end, is_left);
+      auto middle = static_cast<std::uint32_t>(mid - refs());
+      left = range_bounds(begin, middle), right = range_bounds(middle, end);
+      return middle;
+    }
+    for (;;) {
+      for (; begin < end && is_left(refs()[begin]); ++begin) left.grow(refs()[begin]);
+      for (; begin < end && !is_left(refs()[end - 1]); --end) right.grow(refs()[end - 1]);
+      if (begin == end) return begin;
+      std::swap(refs()[begin], refs()[end - 1]);
+      left.grow(refs()[begin++]);
+      right.grow(refs()[--end]);
+    }
   }
 
   /// Partitions the range; gives the first index of the right part and the bounds of both.
@@ -172,30 +212,19 @@ private:
     int levels_left = kMaxDepth - depth - 1;
     bool must_halve = static_cast<int>(std::bit_width(end - begin - 1)) >= levels_left;
     Binning binning(bounds.centroids, bin_count(end - begin));
-    if (!must_halve && (binning.usable(0) || binning.usable(1) || binning.usable(2))) {
-      Bins bins;
+    if (end - begin > 2 && !must_halve && (binning.usable(0) || binning.usable(1) || binning.usable(2))) {
+      Bins bins(binning.bins);
       reduce(begin, end, bins, [this, &binning](std::uint32_t from, std::uint32_t to, Bins& result) {
-        for (std::uint32_t i = from; i < to; ++i) {
-          const BuildRef& ref = refs()[i];
-          Vec4 c = centroid(ref), lo = low(ref), hi = high(ref);
-          for (int axis = 0; axis < 3; ++axis) {
-            Bin& bin =
-                result.axis[static_cast<std::size_t>(axis)][static_cast<std::size_t>(binning.bin(c, axis))];
-            bin.box.grow(lo, hi);
-            ++bin.count;
-          }
-        }
+        fill(binning, from, to, result);
       });
       if (Split best = best_split(bins, binning); best.axis >= 0) {
-        BuildRef* mid = std::partition(refs() + begin, refs() + end, [&](const BuildRef& ref) {
-          return binning.bin(centroid(ref), best.axis) < best.first_right_bin;
-        });
-        auto middle = static_cast<std::uint32_t>(mid - refs());
-        left = range_bounds(begin, middle), right = range_bounds(middle, end);
-        return middle;
+        auto is_left = [&](const BuildRef& ref) {
+          return binning.bin(centroid(ref))[best.axis] < best.first_right_bin;
+        };
+        return partition(begin, end, is_left, left, right);
       }
     }
-    // Coincident centroids or no depth left: halves along the longest axis of the centroids.
+    // Two, coincident centroids or no depth left: halves along the longest axis of the centroids.
     Vec4 extent = bounds.centroids.hi - bounds.centroids.lo;
     int axis = extent[0] >= extent[1] ? (extent[0] >= extent[2] ? 0 : 2) : (extent[1] >= extent[2] ? 1 : 2);
     std::uint32_t middle = begin + (end - begin) / 2;

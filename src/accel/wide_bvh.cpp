@@ -17,7 +17,7 @@ bool fits_leaf(const BinaryBvh& bvh, const BinaryNode& node) {
 CollapsePlan::CollapsePlan(const BinaryBvh& bvh, BuildQuality quality) : bvh_(bvh) {
   if (quality == BuildQuality::fast) return;
   decisions_ = std::make_unique_for_overwrite<std::uint32_t[]>(2 * bvh.refs.size() - 1);
-#pragma omp parallel
+#pragma omp parallel if (bvh.refs.size() >= kTaskRange)
 #pragma omp single
   plan(0);
 }

@@ -68,6 +68,46 @@ TYPED_TEST(SimdFloat8, Comparisons) {
   EXPECT_EQ(equal(x, x), 0b11110111u);
 }
 
+/// For every set of lanes, with equal keys among them.
+TYPED_TEST(SimdFloat8, StoresLanesInOrderAndSorted) {
+  using F = TypeParam;
+  using Entry = simd::Keyed<std::uint32_t>;
+  const Lanes keys{{3, 1, 4, 1, 5, kInfinity, 0, 4}};
+  alignas(32) const std::array<std::uint32_t, 8> values{80, 70, 60, 50, 40, 30, 20, 10};
+  F k = F::load(keys.f.data());
+  for (simd::LaneMask lanes = 1; lanes < 256; ++lanes) {
+    std::vector<std::pair<float, std::uint32_t>> expected;
+    for (std::size_t i = 0; i < 8; ++i)
+      if (lanes >> i & 1) expected.emplace_back(keys.f[i], values[i]);
+    auto stored = [&](auto store) {
+      std::array<Entry, 8> out;
+      auto count = static_cast<std::size_t>(store(out.data()));
+      std::vector<std::pair<float, std::uint32_t>> result;
+      for (std::size_t i = 0; i < count; ++i) result.emplace_back(out[i].key, out[i].value);
+      return result;
+    };
+    EXPECT_EQ(stored([&](Entry* out) { return simd::store_in_order(k, values, lanes, out); }), expected)
+        << lanes;
+    EXPECT_EQ(first_lane(k, lanes), expected.front().first);
+    std::sort(expected.rbegin(), expected.rend());
+    EXPECT_EQ(stored([&](Entry* out) { return simd::store_descending(k, values, lanes, out); }), expected)
+        << lanes;
+  }
+}
+
+TEST(Simd, FourFloats) {
+  simd::Vec4 a{1, -2, 0, -kInfinity}, b{2, -3, -0.0f, 1};
+  simd::Vec4 least = simd::min4(a, b), greatest = simd::max4(a, b), size = simd::abs4(a);
+  simd::Vec4 signed_size = simd::copysign4(size, b);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(least[i], a[i] < b[i] ? a[i] : b[i]);
+    EXPECT_EQ(greatest[i], a[i] > b[i] ? a[i] : b[i]);
+    EXPECT_EQ(size[i], std::abs(a[i]));
+    EXPECT_EQ(signed_size[i], std::copysign(a[i], b[i]));
+    EXPECT_EQ(std::signbit(signed_size[i]), std::signbit(b[i]));
+  }
+}
+
 TEST(Simd, LoopsOverLanesInOrder) {
   std::vector<int> lanes;
   simd::for_each_lane(0b10010110u, [&](int lane) { lanes.push_back(lane); });
@@ -106,8 +146,7 @@ TEST(AccelPortable, FindsTheSameHits) {
     auto hit = accel.intersect(ray);
     ASSERT_EQ(found, hit.has_value());
     Hit unused;
-    ASSERT_EQ((accel_detail::trace<simd::PortableFloat8, true>(tree, ray, unused)),
-              accel.occluded(ray));
+    ASSERT_EQ((accel_detail::trace<simd::PortableFloat8, true>(tree, ray, unused)), accel.occluded(ray));
     if (!found) continue;
     ++hits;
     ASSERT_EQ(portable.t, hit->t);

@@ -1,6 +1,7 @@
 // From inside a closed mesh no ray gets out: not through edges, not through vertices, wherever the mesh lies.
 
 #include "accel/accel.h"
+#include "accel/intersect.h"
 #include "brute_force.h"
 #include "support/seed.h"
 
@@ -98,6 +99,55 @@ TEST_F(AccelWatertight, FarFromTheOrigin) {
     auto place = [offset = offset, size = size](vec3 p) { return offset + size * glm::normalize(p); };
     expect_no_leak(closed_mesh(12, place), offset, 0.4f * size, random, 200000);
   }
+}
+
+/// Rays whose edge functions lie below the rounding error of single precision, decided as integers decide
+/// them.
+template <class F>
+void expect_exact_edges(Random& random) {
+  auto lattice = [&] { return static_cast<int>(random.below(1u << 24)) - (1 << 23); };
+  auto near_0 = [&] { return static_cast<int>(random.below(3)) - 1; };
+  const accel_detail::ShearedRay<F> ray(
+      {{0, 0, -1}, 0, {0, 0, 1}, kInfinity}); // no shear: x and y stay exact
+  int hits = 0, misses = 0;
+  for (int n = 0; n < 100000; ++n) {
+    int ax = lattice(), ay = lattice(), bx = -ax + near_0(), by = -ay + near_0(), cx = lattice(),
+        cy = lattice();
+    std::array<std::array<int, 2>, 3> p{{{ax, ay}, {bx, by}, {cx, cy}}};
+    TrianglePack pack;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t lane = 0; lane < kWidth; ++lane) {
+        pack.vertex[k][0][lane] = static_cast<float>(p[k][0]),
+        pack.vertex[k][1][lane] = static_cast<float>(p[k][1]);
+        pack.vertex[k][2][lane] = 0;
+        pack.primitive[lane] = 3;
+      }
+    bool positive = false, negative = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto [x0, y0] = p[k];
+      auto [x1, y1] = p[(k + 1) % 3];
+      std::int64_t edge = std::int64_t{x0} * y1 - std::int64_t{y0} * x1;
+      positive |= edge > 0, negative |= edge < 0;
+    }
+    if (!positive && !negative) continue; // no area
+    Hit hit;
+    float t_max = kInfinity;
+    bool expected = positive != negative;
+    ASSERT_EQ((accel_detail::meet_triangles<F, false>(pack, ray, 0, t_max, hit)), expected)
+        << ax << " " << ay << ", " << bx << " " << by << ", " << cx << " " << cy;
+    ++(expected ? hits : misses);
+    if (expected) {
+      ASSERT_FLOAT_EQ(hit.t, 1);
+      ASSERT_EQ(hit.primitive, 3u);
+    }
+  }
+  EXPECT_GT(hits, 10000);
+  EXPECT_GT(misses, 10000);
+}
+
+TEST_F(AccelWatertight, EdgesAreExact) {
+  expect_exact_edges<simd::Float8>(random);
+  expect_exact_edges<simd::PortableFloat8>(random);
 }
 
 } // namespace
