@@ -206,10 +206,13 @@ void Viewer::serve_requests() {
     state_.document.scene.camera = state_.home.scene.camera;
     notify("The view is the scene's own again");
   }
-  if (state_.save_requested) save_shown_picture();
+  if (state_.save_requested && state_.picture) { // before the first one the wish is kept
+    save_shown_picture();
+    state_.save_requested = false;
+  }
   if (state_.open_path) open_scene(*state_.open_path);
   state_.open_path.reset();
-  state_.reset_view_requested = state_.save_requested = false;
+  state_.reset_view_requested = false;
 }
 
 void Viewer::open_scene(const std::string& path) {
@@ -258,10 +261,6 @@ void Viewer::install_scene(Document document, std::string path, std::vector<std:
 }
 
 void Viewer::save_shown_picture() {
-  if (!state_.picture) {
-    notify("There is no picture to save yet");
-    return;
-  }
   writer_.post(
       [this, image = state_.picture, folder = options_.screenshot_folder]() -> TaskThread::Completion {
         try {

@@ -106,7 +106,11 @@ private:
     bool scrolled = false;
     std::set<MouseButton> buttons;
     std::set<Key> keys;
-    std::vector<Key> pressed; // not meant for a text field
+    struct Pressed {
+      Key key;
+      bool control; // as it was then: it may be released in the same frame
+    };
+    std::vector<Pressed> pressed; // not meant for a text field
   } taken_;
   std::set<Key> held_;  // keys that fly
   bool typing_ = false; // a text field has the keyboard

@@ -153,13 +153,12 @@ void Viewer::apply_key(const KeyChanged& change) {
     return;
   }
   if (typing_) return;
-  taken_.pressed.push_back(change.key);
+  taken_.pressed.push_back({change.key, io.KeyCtrl});
   if (flies(change.key) && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper) held_.insert(change.key);
 }
 
 void Viewer::run_shortcuts() {
-  const bool control = ImGui::GetIO().KeyCtrl;
-  for (Key key : taken_.pressed) {
+  for (auto [key, control] : taken_.pressed) {
     if (control) {
       if (key == Key::q) wants_close_ = true;
       if (key == Key::s) state_.save_requested = true;

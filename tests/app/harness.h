@@ -4,6 +4,7 @@
 
 #include "app/viewer.h"
 #include "io/image_file.h"
+#include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -74,23 +75,6 @@ private:
   Gl gl_;
   ivec2 size_{0};
   std::vector<std::uint8_t> memory_;
-};
-
-/// A folder of its own for one test, removed at its end.
-class ScratchFolder {
-public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "candela-window-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder for the test's files");
-    path_ = name;
-  }
-  ~ScratchFolder() { std::filesystem::remove_all(path_); }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
-private:
-  std::filesystem::path path_;
 };
 
 /// A room of five coloured walls, a lamp, a glossy ball and a small point light.

@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_text(const fs::path& path, std::string_view text) { std::ofstream(path) << text; }
-
 /// The part of the framebuffer that the rectangle covers.
 std::vector<std::uint8_t> region(const ViewerHarness& hand, const PixelRect& rect) {
   const std::vector<std::uint8_t> all = hand.pixels();
@@ -124,17 +122,17 @@ TEST(ViewerWindowUi, EditingTheFilmSizeFixesIt) {
 
 TEST(ViewerWindowUi, DroppedScenesOpenBesideTheRunningOne) {
   ScratchFolder folder;
-  const fs::path scene = folder.path() / "good.json";
+  const std::string scene = folder / "good.json";
   Document good = test_document();
   good.scene.instances.pop_back();
-  write_candela_json(good, scene.string());
+  write_candela_json(good, scene);
   ViewerHarness hand;
   hand.wait_for_picture();
   const Document before = hand.document();
 
-  const fs::path broken = folder.path() / "broken.json";
+  const std::string broken = folder / "broken.json";
   write_text(broken, "{\n  \"camera\": 7,,\n}");
-  hand.send(FilesDropped{{broken.string()}});
+  hand.send(FilesDropped{{broken}});
   hand.wait_until("the error shows", [&] { return hand.find("error.text").has_value(); });
   EXPECT_NE(hand.state().error.find("broken.json"), std::string::npos) << hand.state().error;
   EXPECT_EQ(hand.document(), before) << "the old scene goes on";
@@ -144,12 +142,12 @@ TEST(ViewerWindowUi, DroppedScenesOpenBesideTheRunningOne) {
   hand.frame(2);
   EXPECT_FALSE(hand.find("error.text"));
 
-  hand.send(FilesDropped{{(folder.path() / "missing.json").string()}});
+  hand.send(FilesDropped{{folder / "missing.json"}});
   hand.wait_until("the error shows", [&] { return hand.find("error.text").has_value(); });
   EXPECT_NE(hand.state().error.find("missing.json"), std::string::npos) << hand.state().error;
 
-  hand.send(FilesDropped{{scene.string()}});
-  hand.wait_until("the scene is open", [&] { return hand.state().scene_path == scene.string(); });
+  hand.send(FilesDropped{{scene}});
+  hand.wait_until("the scene is open", [&] { return hand.state().scene_path == scene; });
   EXPECT_EQ(hand.state().error, "");
   EXPECT_EQ(hand.document().scene.instances.size(), before.scene.instances.size() - 1);
   EXPECT_EQ(hand.viewer.title(), "good.json - Candela");
@@ -183,19 +181,19 @@ TEST(ViewerWindowUi, EveryBundledSceneOpens) {
 
 TEST(ViewerWindowUi, SavingNeverOverwrites) {
   ScratchFolder folder;
-  write_text(folder.path() / "candela-0001.exr", "someone else's");
+  write_text(folder / "candela-0001.exr", "someone else's");
   ViewerHarness hand(test_document(), {.screenshot_folder = folder.path()});
   hand.wait_for_picture();
   hand.key(Key::p);
   hand.wait_until("the files are named", [&] { return hand.state().notice.starts_with("Saved"); });
   EXPECT_NE(hand.state().notice.find("candela-0002.png"), std::string::npos) << hand.state().notice;
-  EXPECT_FALSE(fs::exists(folder.path() / "candela-0001.png"));
-  EXPECT_EQ(fs::file_size(folder.path() / "candela-0001.exr"), 14u);
+  EXPECT_FALSE(fs::exists(folder / "candela-0001.png"));
+  EXPECT_EQ(fs::file_size(folder / "candela-0001.exr"), 14u);
 
   const auto shown = hand.viewer.viewport().shown();
-  const Image linear = read_image((folder.path() / "candela-0002.exr").string());
+  const Image linear = read_image(folder / "candela-0002.exr");
   EXPECT_EQ(linear.pixels, shown->frame->linear);
-  const Image png = read_image((folder.path() / "candela-0002.png").string());
+  const Image png = read_image(folder / "candela-0002.png");
   ASSERT_EQ(png.width, 64);
   for (std::size_t i = 0; i < png.pixels.size(); ++i)
     for (int c = 0; c < 3; ++c)
@@ -203,7 +201,7 @@ TEST(ViewerWindowUi, SavingNeverOverwrites) {
                 shown->rgba[4 * i + static_cast<std::size_t>(c)]);
 
   hand.click("save");
-  hand.wait_until("the second pair is there", [&] { return fs::exists(folder.path() / "candela-0003.exr"); });
+  hand.wait_until("the second pair is there", [&] { return fs::exists(folder / "candela-0003.exr"); });
 }
 
 TEST(ViewerWindowUi, AFolderThatCannotBeWrittenToIsReported) {
@@ -236,9 +234,14 @@ TEST(ViewerWindowUi, ControlQCloses) {
   ViewerHarness hand;
   hand.key(Key::q);
   EXPECT_FALSE(hand.viewer.wants_close());
-  hand.key_down(Key::left_control);
-  hand.key(Key::q);
+  const Camera before = hand.document().scene.camera;
+  // All within one frame, and control released first, as a hurried hand does it.
+  for (auto [key, down] : {std::pair(Key::left_control, true), std::pair(Key::q, true),
+                           std::pair(Key::left_control, false), std::pair(Key::q, false)})
+    hand.viewer.handle(KeyChanged{key, down});
+  while (hand.viewer.has_pending_events()) hand.frame();
   EXPECT_TRUE(hand.viewer.wants_close());
+  EXPECT_EQ(hand.document().scene.camera, before);
 }
 
 TEST(ViewerWindowUi, AFinishedPictureIsNotDrawnAgain) {

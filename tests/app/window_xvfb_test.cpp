@@ -72,11 +72,6 @@ private:
   int status_ = -1;
 };
 
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// An X server of its own on a free display number.
 class XServer {
 public:
@@ -87,11 +82,11 @@ public:
             "bash", "-c",
             fmt::format("exec Xvfb -displayfd 9 -screen 0 {}x{}x24 -nolisten tcp 9>display", size.x, size.y)},
         folder, "", folder / "xvfb.log");
-    for (int i = 0; i < 1000 && text_of(number).find('\n') == std::string::npos; ++i)
+    for (int i = 0; i < 1000 && read_text(number).find('\n') == std::string::npos; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    std::string line = text_of(number);
+    std::string line = read_text(number);
     line.erase(line.find_last_not_of('\n') + 1);
-    if (line.empty()) throw std::runtime_error("Xvfb did not start: " + text_of(folder / "xvfb.log"));
+    if (line.empty()) throw std::runtime_error("Xvfb did not start: " + read_text(folder / "xvfb.log"));
     display_ = ":" + line;
   }
   const std::string& display() const { return display_; }
@@ -131,33 +126,33 @@ protected:
 
 TEST_F(RealWindowUi, FliesSavesAndCloses) {
   ScratchFolder folder;
-  write_candela_json(test_document(), (folder.path() / "room.json").string());
+  write_candela_json(test_document(), folder / "room.json");
   const XServer server(folder.path(), {1280, 720});
-  const fs::path log = folder.path() / "candela.log";
+  const fs::path log = folder / "candela.log";
   Process candela({CANDELA_PROGRAM, "view", "room.json"}, folder.path(), server.display(), log);
 
   std::string window;
   ASSERT_TRUE(comes_true([&] {
     window = server.xdotool("search --onlyvisible --name 'room.json - Candela' 2>/dev/null");
     return !window.empty();
-  })) << text_of(log);
+  })) << read_text(log);
   server.xdotool("mousemove 300 300");
   auto save = [&](const std::string& number) {
     server.xdotool("key p");
     return comes_true([&] { // the EXR is written last
       std::error_code failed;
-      const auto size = fs::file_size(folder.path() / fmt::format("candela-{}.exr", number), failed);
+      const auto size = fs::file_size(folder / fmt::format("candela-{}.exr", number), failed);
       return !failed && size > 0;
     });
   };
-  ASSERT_TRUE(save("0001")) << text_of(log);
+  ASSERT_TRUE(save("0001")) << read_text(log);
 
   server.xdotool("keydown a");
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
   server.xdotool("keyup a");
-  ASSERT_TRUE(save("0002")) << text_of(log);
-  const Image before = read_image((folder.path() / "candela-0001.png").string());
-  const Image after = read_image((folder.path() / "candela-0002.png").string());
+  ASSERT_TRUE(save("0002")) << read_text(log);
+  const Image before = read_image(folder / "candela-0001.png");
+  const Image after = read_image(folder / "candela-0002.png");
   ASSERT_EQ(before.width, 1280) << "the film has the window's size";
   ASSERT_EQ(after.pixels.size(), before.pixels.size());
   std::size_t changed = 0;
@@ -171,15 +166,15 @@ TEST_F(RealWindowUi, FliesSavesAndCloses) {
     EXPECT_EQ(saved, 0);
   }
   server.xdotool("key ctrl+q");
-  EXPECT_EQ(candela.wait(30), 0) << text_of(log);
+  EXPECT_EQ(candela.wait(30), 0) << read_text(log);
 }
 
 TEST_F(RealWindowUi, WithoutADisplayItSaysSo) {
   ScratchFolder folder;
-  const fs::path log = folder.path() / "candela.log";
+  const fs::path log = folder / "candela.log";
   Process candela({"env", "-u", "DISPLAY", CANDELA_PROGRAM, "view"}, folder.path(), "", log);
   EXPECT_EQ(candela.wait(30), static_cast<int>(ExitCode::display));
-  EXPECT_NE(text_of(log).find("candela render"), std::string::npos) << "the remedy: " << text_of(log);
+  EXPECT_NE(read_text(log).find("candela render"), std::string::npos) << "the remedy: " << read_text(log);
 }
 
 } // namespace
