@@ -48,7 +48,7 @@ std::optional<dvec3> meet(const SphereLight& l, dvec3 o,
                           dvec3 w) { // the first point, or from inside the only one
   dvec3 f = o - dvec3(l.center);
   double r = static_cast<double>(l.radius), b = glm::dot(f, w), d = b * b - (glm::dot(f, f) - r * r);
-  if (d < -kEdge * r * r) return std::nullopt;
+  if (d < -10 * kEdge * r * r) return std::nullopt;
   d = std::max(d, 0.0);
   double t = -b - std::sqrt(d);
   if (t <= 0) t = -b + std::sqrt(d);
