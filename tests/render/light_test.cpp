@@ -48,7 +48,7 @@ std::optional<dvec3> meet(const SphereLight& l, dvec3 o,
                           dvec3 w) { // the first point, or from inside the only one
   dvec3 f = o - dvec3(l.center);
   double r = static_cast<double>(l.radius), b = glm::dot(f, w), d = b * b - (glm::dot(f, f) - r * r);
-  if (d < -10 * kEdge * r * r) return std::nullopt;
+  if (d < -kEdge * r * r) return std::nullopt;
   d = std::max(d, 0.0);
   double t = -b - std::sqrt(d);
   if (t <= 0) t = -b + std::sqrt(d);
@@ -61,7 +61,7 @@ template <class L>
 void expect_density(const L& light, vec3 reference, vec3 towards, double width, bool shining = true) {
   SCOPED_TRACE(testing::Message() << "from " << reference.x << " " << reference.y << " " << reference.z);
   LightReference ref{reference, glm::normalize(towards - reference)};
-  constexpr std::size_t kCount = 100000;
+  constexpr std::size_t kCount = 40000;
   int wrong_radiance = 0, wrong_pdf = 0, off_light = 0;
   auto draw = [&](std::size_t i) -> std::optional<vec3> {
     std::uint64_t h = hash_combine(fresh_seed(), i);
@@ -77,10 +77,11 @@ void expect_density(const L& light, vec3 reference, vec3 towards, double width, 
     return s->direction;
   };
   auto pdf = [&](vec3 w) {
-    auto p = meet(light, dvec3(reference), dvec3(w));
+    auto p = meet(light, dvec3(reference), glm::normalize(dvec3(w)));
     return p ? static_cast<double>(light.pdf(ref, vec3(*p), w)) : 0.0;
   };
-  DirectionTest result = test_directions(SphereBins(ref.normal, width), kCount, draw, pdf);
+  // Small bins, for the quadrature may overlook a light's corner that reaches a little into a bin.
+  DirectionTest result = test_directions(SphereBins(ref.normal, width, 32, 64), kCount, draw, pdf);
   EXPECT_EQ(wrong_radiance, 0);
   EXPECT_EQ(wrong_pdf, 0);
   EXPECT_EQ(off_light, 0);
