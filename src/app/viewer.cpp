@@ -75,7 +75,7 @@ void Viewer::frame(double now) {
   ImGui::SetCurrentContext(imgui_);
   if (first_frame_ < 0) first_frame_ = now;
   ImGuiIO& io = ImGui::GetIO();
-  io.DeltaTime = static_cast<float>(std::clamp(now - now_, 1e-4, 0.1));
+  io.DeltaTime = static_cast<float>(std::clamp(now - now_, 1e-4, 1.0));
   now_ = now;
 
   redraws_ = events_.empty() ? std::max(redraws_ - 1, 0) : kFramesToSettle;

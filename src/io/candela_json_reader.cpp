@@ -20,7 +20,7 @@ public:
   CandelaReader(const FoundFile& file, const PathPolicy& policy, WarningList& warnings)
       : folder_(folder_of(file.shown)),
         tree_(file.shown, read_text_file(file.canonical, "scene", kMaxJsonBytes)),
-        builder_(document_.scene, policy, TfMeaning::filter, warnings) {}
+        builder_(document_.scene, policy, MtlDialect::standard, warnings) {}
 
   Document run() {
     constexpr std::string_view kKeys[] = {"candela",  "description", "camera",    "materials", "lights",

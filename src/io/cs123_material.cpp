@@ -100,7 +100,6 @@ std::optional<MtlMaterial> cs123_material(pugi::xml_node object, const Cs123Valu
     return glm::min(c, vec3(1));
   };
   m.diffuse = clamped(out.diffuse_texture && is_black(diffuse) ? vec3(1) : diffuse);
-  m.two_sided_emission = !is_black(m.emission);
   if (!is_black(transparent)) {
     m.type = MaterialType::dielectric;
   } else if (!is_black(reflective)) {

@@ -26,7 +26,7 @@ public:
   Cs123Reader(const FoundFile& file, const PathPolicy& policy, WarningList& warnings)
       : file_(file), folder_(folder_of(file.shown)),
         text_(read_text_file(file.canonical, "scene", kMaxXmlBytes)), places_(file.shown, text_),
-        values_(places_, warnings), builder_(document_.scene, policy, TfMeaning::absorption, warnings) {}
+        values_(places_, warnings), builder_(document_.scene, policy, MtlDialect::cs123, warnings) {}
 
   Document run() {
     pugi::xml_node scene = parse();

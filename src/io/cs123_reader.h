@@ -20,7 +20,7 @@ namespace candela {
 ///   assignment's scenes the objects' attributes contradict the MTL and the pictures follow the MTL.)
 /// - An object's own material is dielectric if `transparent` is not black, else mirror if `reflective` is
 ///   not, else phong if `specular` is not, else diffuse.
-/// - "Tf" of an MTL is an absorption coefficient (TfMeaning::absorption).
+/// - MTL files are of MtlDialect::cs123.
 /// - A light's colour is its intensity (point) or irradiance (directional); the `function` of distance is
 ///   ignored, as light falls off with the square.
 /// - spheres have the radius 0.5. Other primitives, spot and area lights are refused: not supported yet.

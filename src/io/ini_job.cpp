@@ -39,7 +39,9 @@ public:
     IniJob job;
     job.scene = find_scene();
     job.output = output_;
+    // As its reference pictures are shown: they are 2/3 of a stop darker than the radiance of their scenes.
     document_.settings.display.tone_map = ToneMap::reinhard;
+    document_.settings.display.exposure = -0.65f;
     job.settings = document_.settings;
     return job;
   }

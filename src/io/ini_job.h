@@ -32,7 +32,7 @@ struct IniJob {
 ///   draws at every bounce: the camera's segment and direct light are safe, every continuation is by chance.
 /// - directLightingOnly: path.max_depth = 2.
 /// - numDirectLightingSamples: path.light_samples.
-/// - The assignment maps tones by Reinhard's operator: display.tone_map = reinhard.
+/// - As the assignment's reference pictures are shown: display.tone_map = reinhard, display.exposure = -0.65.
 ///
 /// The job's scene is named relative to a folder that need not be the job's. It is looked for there and in up
 /// to four folders above, and, as the assignment's students keep the scenes in example-scenes/, with that

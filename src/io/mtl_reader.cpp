@@ -127,8 +127,8 @@ vec3 color_of(const tinyobj::real_t (&c)[3]) { return {c[0], c[1], c[2]}; }
 /// Conversion of one material, with the corrections that it needs.
 class Converter {
 public:
-  Converter(const Said& said, TfMeaning tf, WarningList& warnings)
-      : said_(said), tf_(tf), warnings_(warnings) {}
+  Converter(const Said& said, MtlDialect dialect, WarningList& warnings)
+      : said_(said), dialect_(dialect), warnings_(warnings) {}
 
   Material convert(const tinyobj::material_t& m) {
     Material out;
@@ -138,7 +138,7 @@ public:
                            : (said_.texture ? vec3(1) : Material{}.diffuse);
     vec3 specular = clamped("specular", "Ks", color_of(m.specular));
     out.emission = clamped("emission", "Ke", color_of(m.emission));
-    out.two_sided_emission = !is_black(out.emission);
+    out.two_sided_emission = !is_black(out.emission) && dialect_ == MtlDialect::standard;
     switch (m.illum) {
     case 3:
     case 5:
@@ -172,7 +172,7 @@ private:
       warnings_.add(said_.where, fmt::format("glass without Ni: {} is taken", out.ior));
     if (!said_.tf) return;
     vec3 tf = color_of(m.transmittance);
-    if (tf_ == TfMeaning::absorption)
+    if (dialect_ == MtlDialect::cs123)
       out.absorption = clamped("absorption", "Tf", tf);
     else
       out.transmittance = glm::sqrt(clamped("transmittance", "Tf", tf));
@@ -192,7 +192,7 @@ private:
   }
 
   const Said& said_;
-  TfMeaning tf_;
+  MtlDialect dialect_;
   WarningList& warnings_;
 };
 
@@ -206,7 +206,7 @@ bool conserve_energy(vec3& diffuse, vec3 specular) {
   return exceeds;
 }
 
-void read_mtl(const FoundFile& file, const PathPolicy& policy, TfMeaning tf, WarningList& warnings,
+void read_mtl(const FoundFile& file, const PathPolicy& policy, MtlDialect dialect, WarningList& warnings,
               MtlLibrary& library) {
   std::string text = read_text_file(file.canonical, "material library", kMaxMtlBytes);
   MtlCheck check(file.shown, warnings);
@@ -231,7 +231,8 @@ void read_mtl(const FoundFile& file, const PathPolicy& policy, TfMeaning tf, War
       warnings.add(said.where, "a material of this name is there already: the first one counts");
       continue;
     }
-    MtlMaterial out{Converter(said, tf, warnings).convert(materials[i]), std::nullopt, said.texture_where};
+    MtlMaterial out{Converter(said, dialect, warnings).convert(materials[i]), std::nullopt,
+                    said.texture_where};
     const std::string& texture = materials[i].diffuse_texname;
     if (said.texture && material_uses(out.material.type, "diffuse")) {
       out.diffuse_texture = texture.empty()

@@ -158,12 +158,13 @@ private:
 
 /// "mtllib a b.mtl" is one name with a space or two names: the specification means two, exporters mean one.
 void read_libraries(std::string_view names, const Location& where, const FoundFile& obj,
-                    const PathPolicy& policy, TfMeaning tf, WarningList& warnings, MtlLibrary& library) {
+                    const PathPolicy& policy, MtlDialect dialect, WarningList& warnings,
+                    MtlLibrary& library) {
   std::string folder = folder_of(obj.shown);
   if (names.empty()) return warnings.add(where, "mtllib names no file");
   auto try_read = [&](std::string_view name) {
     auto file = policy.find(std::string(name), folder, where, "mtllib");
-    if (file) read_mtl(*file, policy, tf, warnings, library);
+    if (file) read_mtl(*file, policy, dialect, warnings, library);
     return file.has_value();
   };
   if (try_read(names)) return;
@@ -178,7 +179,8 @@ void read_libraries(std::string_view names, const Location& where, const FoundFi
 
 } // namespace
 
-ObjModel read_obj(const FoundFile& file, const PathPolicy& policy, TfMeaning tf, WarningList& warnings) {
+ObjModel read_obj(const FoundFile& file, const PathPolicy& policy, MtlDialect dialect,
+                  WarningList& warnings) {
   std::string text = read_text_file(file.canonical, "mesh", kMaxObjBytes);
   ObjContents contents;
   MtlLibrary library;
@@ -186,7 +188,7 @@ ObjModel read_obj(const FoundFile& file, const PathPolicy& policy, TfMeaning tf,
   contents.lines = &lines;
   lines.on_usemtl = [&](std::string_view name, const Location&) { contents.material = name; };
   lines.on_mtllib = [&](std::string_view names, const Location& where) {
-    read_libraries(names, where, file, policy, tf, warnings, library);
+    read_libraries(names, where, file, policy, dialect, warnings, library);
   };
   std::istream stream(&lines);
   stream.exceptions(std::ios::badbit); // lets the errors of ObjLines through

@@ -23,6 +23,6 @@ struct ObjModel {
 ///
 /// Throws input_error with line and column for words that are no finite numbers, indices out of range and
 /// files without a face; limit_error above 2 GiB or 4096 corners of a polygon.
-ObjModel read_obj(const FoundFile& file, const PathPolicy& policy, TfMeaning tf, WarningList& warnings);
+ObjModel read_obj(const FoundFile& file, const PathPolicy& policy, MtlDialect dialect, WarningList& warnings);
 
 } // namespace candela

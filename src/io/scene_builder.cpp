@@ -17,7 +17,7 @@ MeshFile& SceneBuilder::mesh_file(const FoundFile& file, const std::string& name
     if (lower_ending(file.shown) != ".obj")
       throw input_error(where, element, fmt::format("'{}' is no mesh file that can be read", file.shown),
                         "give an OBJ file");
-    ObjModel model = read_obj(file, policy_, tf_, warnings_);
+    ObjModel model = read_obj(file, policy_, dialect_, warnings_);
     std::string key = name.empty() ? model.mesh.name : name;
     model.mesh.name = key;
     std::vector<int> none(model.materials.size(), -1);

@@ -22,8 +22,8 @@ struct MeshFile {
 /// Adds to a SceneDesc. Errors are those of the files it reads.
 class SceneBuilder {
 public:
-  SceneBuilder(SceneDesc& scene, PathPolicy policy, TfMeaning tf, WarningList& warnings)
-      : scene_(scene), policy_(std::move(policy)), tf_(tf), warnings_(warnings) {}
+  SceneBuilder(SceneDesc& scene, PathPolicy policy, MtlDialect dialect, WarningList& warnings)
+      : scene_(scene), policy_(std::move(policy)), dialect_(dialect), warnings_(warnings) {}
 
   SceneDesc& scene() { return scene_; }
   const PathPolicy& policy() const { return policy_; }
@@ -54,7 +54,7 @@ private:
 
   SceneDesc& scene_;
   PathPolicy policy_;
-  TfMeaning tf_;
+  MtlDialect dialect_;
   WarningList& warnings_;
   std::map<std::string, std::map<std::string, MeshFile>> meshes_; ///< by canonical path, then name
   std::map<std::string, int> textures_;                           ///< by canonical path

@@ -14,7 +14,7 @@ namespace {
 
 Document read_obj_scene(const FoundFile& file, const PathPolicy& policy, WarningList& warnings) {
   Document document;
-  SceneBuilder builder(document.scene, policy, TfMeaning::filter, warnings);
+  SceneBuilder builder(document.scene, policy, MtlDialect::standard, warnings);
   MeshFile& mesh = builder.mesh_file(file, "", {file.shown}, "mesh");
   Instance instance;
   instance.name = mesh.mesh->name;

@@ -145,7 +145,7 @@ public:
     EXPECT_EQ(context_.gl().GetError(), static_cast<GLenum>(GL_NO_ERROR));
   }
   /// Long enough that the next click is not the second one of a double click.
-  void pause() { frame(5, 0.1); }
+  void pause() { frame(1, 0.5); }
 
   /// Until the newest Document is rendered and on the screen.
   void wait_for_picture(double seconds = 60) {

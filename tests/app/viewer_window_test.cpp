@@ -137,6 +137,7 @@ TEST(ViewerWindowUi, DroppedScenesOpenBesideTheRunningOne) {
   EXPECT_NE(hand.state().error.find("broken.json"), std::string::npos) << hand.state().error;
   EXPECT_EQ(hand.document(), before) << "the old scene goes on";
   EXPECT_EQ(hand.viewer.session().status().phase, SessionPhase::finished);
+  hand.frame(3);
   hand.screenshot("error_strip");
   hand.click("error.dismiss");
   hand.frame(2);
@@ -316,7 +317,7 @@ TEST(ViewerWindowUi, NothingIsCutOff) {
 TEST(ViewerScreenshotsUi, LeavesPicturesOfItself) {
   for (auto [size, scale] : {std::pair(ivec2(1280, 720), 1.0f), std::pair(ivec2(3840, 2160), 2.0f)}) {
     Document document = test_document();
-    document.settings.stop.spp = scale > 1 ? 2 : 16;
+    document.settings.stop.spp = scale > 1 ? 1 : 8;
     ViewerHarness hand(document, {.size = size, .scale = scale, .fit_film = true});
     hand.wait_for_picture(300);
     const std::string name = fmt::format("{}x{}", size.x, size.y);

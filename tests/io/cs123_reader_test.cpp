@@ -302,7 +302,7 @@ TEST_F(Cs123Reader, TheAssignmentsScenes) {
     EXPECT_GT(mesh_of(loaded).triangles.size(), 13u);
     EXPECT_TRUE(std::ranges::any_of(s.materials, [&](const Material& m) { return m.type == e.one_of; }));
     EXPECT_TRUE(std::ranges::any_of(
-        s.materials, [](const Material& m) { return m.emission.x > 0 && m.two_sided_emission; }));
+        s.materials, [](const Material& m) { return m.emission.x > 0 && !m.two_sided_emission; }));
   }
   auto box = read_scene(folder + "CornellBox.xml").document.scene.camera;
   EXPECT_EQ(box.position, vec3(0, 1, 3.6f));

@@ -33,6 +33,7 @@ TEST_F(IniJobs, SettingsInTheTermsOfTheTable) {
   EXPECT_EQ(s.path.light_samples, 4);
   EXPECT_EQ(s.path.light_sampling, LightSampling::mis);
   EXPECT_EQ(s.display.tone_map, ToneMap::reinhard);
+  EXPECT_EQ(s.display.exposure, -0.65f);
   EXPECT_EQ(loaded.document.scene.lights.size(), 1u);
 
   files.write("j.ini", "[Settings]\ndirectLightingOnly = false\n[IO]\nscene = s.xml\n");
