@@ -137,7 +137,7 @@ TEST_F(CliTest, ErrorsHaveTheirExitCodes) {
   std::ofstream(path("bad.json")) << "{\n  \"candela\": 1,\n  \"cmera\": {}\n}\n";
   for (const Case& c : std::vector<Case>{
            {"render", 2, "scene"},
-           {"paint", 2, "paint"},
+           {"--paint", 2, "--paint"},
            {fmt::format("render '{}'", scene), 2, "-o"},
            {fmt::format("render '{}' -o a.xyz", scene), 2, ".png"},
            {fmt::format("render '{}' -o a.png --size 10", scene), 2, "WxH"},
