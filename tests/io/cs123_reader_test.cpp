@@ -167,12 +167,12 @@ TEST_F(Cs123Reader, IgnoresAndCounts) {
   auto loaded = read("<cameradata><aspectratio v='1'/></cameradata><hut/><hut/>" +
                      root("<object type='primitive' name='sphere'><diffuse r='1' g='1' b='1'/><blend "
                           "v='1'/></object><translate x='1' y='0' z='0'/>"));
-  EXPECT_EQ(files.warnings(loaded),
-            (std::vector<std::string>{"1 x s.xml:2:13: <aspectratio> is ignored",
-                                      "2 x s.xml:2:46: <hut> is ignored",
-                                      "1 x s.xml:2:169: <blend> is ignored",
-"1 x s.xml:2:192: what follows the object of a transblock is ignored",
-"1 x s.xml: nothing in the scene shines: the picture will be black"}))
+  EXPECT_EQ(
+      files.warnings(loaded),
+      (std::vector<std::string>{"1 x s.xml:2:13: <aspectratio> is ignored",
+                                "2 x s.xml:2:46: <hut> is ignored", "1 x s.xml:2:169: <blend> is ignored",
+                                "1 x s.xml:2:192: what follows the object of a transblock is ignored",
+                                "1 x s.xml: nothing in the scene shines: the picture will be black"}))
       << "in the order of reading";
 }
 

@@ -103,8 +103,7 @@ inline SceneMaker cornell_flush(int width, int height, int spp, bool blocks) {
     auto block = [&](std::initializer_list<vec2> corners,
                      float top) { // counter-clockwise seen from above (-z up)
       Mesh m;
-      for (vec2 c : corners)
-        m.positions.emplace_back(c.x, 0, c.y), m.positions.emplace_back(c.x, top, c.y);
+      for (vec2 c : corners) m.positions.emplace_back(c.x, 0, c.y), m.positions.emplace_back(c.x, top, c.y);
       for (std::uint32_t k = 0; k < 4; ++k) {
         std::uint32_t a = 2 * k, b = 2 * ((k + 1) % 4);
         m.triangles.emplace_back(a, b, b + 1);
