@@ -272,11 +272,7 @@ void Window::run() {
 
 } // namespace
 
-bool display_available() {
-  if (glfwInit() != GLFW_TRUE) return false;
-  glfwTerminate();
-  return true;
-}
+bool display_available() { return glfwInit() == GLFW_TRUE; }
 
 void run_window(ViewerOptions options) { Window(std::move(options)).run(); }
 

@@ -5,7 +5,8 @@
 
 namespace candela {
 
-/// Whether there is a display to open a window on.
+/// Whether there is a display to open a window on. The connection to it is kept for the window: a server such
+/// as Xvfb starts anew, and refuses for a moment, when its last client leaves.
 bool display_available();
 
 /// Opens the window and returns when it is closed. An Error with ExitCode::display, cause and remedy if there
