@@ -1,9 +1,11 @@
 #pragma once
-// What the image formats of this folder have in common, and their entry points. Only image_file.cpp and
-// texture_reader.cpp use these; everybody else goes through image_file.h and texture_reader.h.
+// What the image formats of this folder have in common, and their entry points.
+// Only image_file.cpp and texture_reader.cpp use these; everybody else goes
+// through image_file.h and texture_reader.h.
 //
-// Decoders take the whole file; they throw input_error for what is damaged and limit_error for what is too
-// large, located at `where`, before they allocate pixels.
+// Decoders take the whole file; they throw input_error for what is damaged and
+// limit_error for what is too large, located at `where`, before they allocate
+// pixels.
 
 #include "core/error.h"
 #include "io/file_bytes.h"
@@ -19,7 +21,8 @@ namespace candela {
 inline constexpr std::int64_t kMaxImageSide = 65536;
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 
-/// Throws input_error unless both sides are positive, limit_error above the caps.
+/// Throws input_error unless both sides are positive, limit_error above the
+/// caps.
 void check_image_size(const Location& where, std::int64_t width, std::int64_t height);
 
 /// The error of a damaged file.
@@ -35,24 +38,32 @@ struct Picture8 {
 // image_file.cpp: the format is known by its signature.
 Image decode_image(ByteView bytes, const Location& where);
 
-// stb_codec.cpp: PNG, JPEG, BMP and (`tga`: it has no signature, so the caller has to know) TGA.
-// Alpha is dropped; PNGs of 16 bits keep them in decode_stb.
+/// The linear picture.
+Image linear_image(const Picture8& picture);
+
+// stb_codec.cpp: PNG, BMP and (`tga`: it has no signature, so the caller has to
+// know) TGA. Alpha is dropped; PNGs of 16 bits keep them in decode_stb.
 bool is_stb_format(ByteView bytes);
 Picture8 decode_stb8(ByteView bytes, const Location& where, bool tga = false);
 Image decode_stb(ByteView bytes, const Location& where, bool tga = false);
-/// Throw std::bad_alloc when out of memory.
+/// Throws std::bad_alloc when out of memory.
 Bytes encode_png(int width, int height, ByteView rgb);
-Bytes encode_jpg(int width, int height, ByteView rgb);
 
-// png_check.cpp: structure and checksums of a PNG, which stb_image leaves unread.
+// png_check.cpp: structure and checksums of a PNG, which stb_image leaves
+// unread.
 bool is_png(ByteView bytes);
 void check_png(ByteView bytes, const Location& where);
 
-// jpg_check.cpp: structure of a JPEG; what stb_image takes without looking.
+// jpg.cpp: JPEG, grey and colour; written with quality 95 and colour in full
+// resolution.
 bool is_jpg(ByteView bytes);
-void check_jpg(ByteView bytes, const Location& where);
+Picture8 decode_jpg(ByteView bytes, const Location& where);
+/// `path` is for messages: output_error for what the format cannot hold (sides
+/// above 65500).
+Bytes encode_jpg(int width, int height, ByteView rgb, const std::string& path);
 
-// pnm.cpp: PPM and PGM (P2, P3, P5, P6), up to 16 bits, read as sRGB; written as P6.
+// pnm.cpp: PPM and PGM (P2, P3, P5, P6), up to 16 bits, read as sRGB; written
+// as P6.
 bool is_pnm(ByteView bytes);
 Image decode_pnm(ByteView bytes, const Location& where);
 Bytes encode_ppm(int width, int height, ByteView rgb);

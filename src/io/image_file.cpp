@@ -37,9 +37,9 @@ void check_written_size(const std::string& path, std::int64_t width, std::int64_
                        "give it pixels");
 }
 
-Bytes encode_srgb8(ImageFormat format, int width, int height, ByteView rgb) {
+Bytes encode_srgb8(ImageFormat format, int width, int height, ByteView rgb, const std::string& path) {
   return format == ImageFormat::png   ? encode_png(width, height, rgb)
-         : format == ImageFormat::jpg ? encode_jpg(width, height, rgb)
+         : format == ImageFormat::jpg ? encode_jpg(width, height, rgb, path)
                                       : encode_ppm(width, height, rgb);
 }
 
@@ -57,6 +57,7 @@ ImageFormat image_format_of(std::string_view path) {
 
 Image decode_image(ByteView bytes, const Location& where) {
   if (is_stb_format(bytes)) return decode_stb(bytes, where);
+  if (is_jpg(bytes)) return linear_image(decode_jpg(bytes, where));
   if (is_exr(bytes)) return decode_exr(bytes, where);
   if (is_hdr(bytes)) return decode_hdr(bytes, where);
   if (is_pfm(bytes)) return decode_pfm(bytes, where);
@@ -88,7 +89,7 @@ void write_srgb8_image(int width, int height, std::span<const std::uint8_t> rgb,
   ImageFormat format = image_format_of(path);
   if (is_linear_format(format))
     throw usage_error(path, "the format holds linear values", "use .png, .jpg or .ppm");
-  write_file_atomically(path, encode_srgb8(format, width, height, rgb));
+  write_file_atomically(path, encode_srgb8(format, width, height, rgb, path));
 }
 
 std::string write_srgb8_image_uniquely(int width, int height, std::span<const std::uint8_t> rgb,
@@ -97,7 +98,7 @@ std::string write_srgb8_image_uniquely(int width, int height, std::span<const st
   std::string ending = format == ImageFormat::png ? ".png" : format == ImageFormat::jpg ? ".jpg" : ".ppm";
   check_written_size(stem + ending, width, height, rgb.size(),
                      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
-  return write_file_uniquely(folder, stem, ending, encode_srgb8(format, width, height, rgb));
+  return write_file_uniquely(folder, stem, ending, encode_srgb8(format, width, height, rgb, stem + ending));
 }
 
 } // namespace candela

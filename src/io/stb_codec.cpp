@@ -1,13 +1,13 @@
-// PNG, JPEG, BMP and TGA by stb_image. It is compiled here rather than linked from Debian's libstb so that
-// only these formats are reachable from a hostile file (its GIF, PSD and PIC readers have known holes) and so
-// that the sanitizers see inside.
+// PNG, BMP and TGA by stb_image. It is compiled here rather than linked from
+// Debian's libstb so that only these formats are reachable from a hostile file
+// (its JPEG, GIF, PSD and PIC readers have known holes) and so that the
+// sanitizers see inside.
 
 #include "core/color.h"
 #include "io/image_codec.h"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -15,7 +15,6 @@
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_NO_STDIO
@@ -32,7 +31,8 @@ using StbPixels = std::unique_ptr<T, decltype([](T* p) { std::free(p); })>;
 
 bool is_bmp(ByteView bytes) { return bytes.size() >= 2 && bytes[0] == 'B' && bytes[1] == 'M'; }
 
-/// Uncompressed rows that the file does not hold would be read as whatever the memory held before.
+/// Uncompressed rows that the file does not hold would be read as whatever the
+/// memory held before.
 void check_tga(ByteView bytes, const Location& where, std::int64_t pixels) {
   bool run_length = (bytes[2] & 8) != 0;
   std::int64_t bytes_per_pixel = (bytes[16] + 7) / 8;
@@ -58,19 +58,16 @@ Error undecodable(const Location& where) {
 /// Everything that is checked before pixels are allocated; the size.
 std::pair<int, int> check_stb(ByteView bytes, const Location& where, bool tga) {
   if (is_png(bytes)) check_png(bytes, where);
-  if (is_jpg(bytes)) check_jpg(bytes, where);
   bool is_tga = tga && !is_stb_format(bytes);
-  // No other format that stb_image would find has such a second byte (TGA's kind of colour map), so that none
-  // gets past its own check by the ending .tga.
+  // No other format that stb_image would find has such a second byte (TGA's
+  // kind of colour map), so that none gets past its own check by the ending
+  // .tga.
   if (is_tga && (bytes.size() < 18 || bytes[1] > 1)) throw damaged_image(where, "it is no TGA");
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) == 0)
     throw undecodable(where);
   check_image_size(where, width, height);
   std::int64_t pixels = std::int64_t{width} * height;
-  // The first scan spends at least one bit on every 8x8 block.
-  if (is_jpg(bytes) && static_cast<std::int64_t>(bytes.size()) < pixels / 512)
-    throw damaged_image(where, "the JPEG is too short for the size it claims");
   if (is_bmp(bytes)) check_bmp(bytes, where, pixels);
   if (is_tga) check_tga(bytes, where, pixels);
   return {width, height};
@@ -78,7 +75,7 @@ std::pair<int, int> check_stb(ByteView bytes, const Location& where, bool tga) {
 
 } // namespace
 
-bool is_stb_format(ByteView bytes) { return is_png(bytes) || is_jpg(bytes) || is_bmp(bytes); }
+bool is_stb_format(ByteView bytes) { return is_png(bytes) || is_bmp(bytes); }
 
 Picture8 decode_stb8(ByteView bytes, const Location& where, bool tga) {
   auto size = check_stb(bytes, where, tga);
@@ -92,15 +89,8 @@ Picture8 decode_stb8(ByteView bytes, const Location& where, bool tga) {
 }
 
 Image decode_stb(ByteView bytes, const Location& where, bool tga) {
-  if (!is_png(bytes) || stbi_is_16_bit_from_memory(bytes.data(), static_cast<int>(bytes.size())) == 0) {
-    Picture8 picture = decode_stb8(bytes, where, tga);
-    std::array<float, 256> linear;
-    for (std::size_t i = 0; i < 256; ++i) linear[i] = linear_from_srgb(static_cast<float>(i) / 255.0f);
-    Image image{picture.width, picture.height, std::vector<vec3>(picture.rgb.size() / 3)};
-    const std::uint8_t* p = picture.rgb.data();
-    for (vec3& pixel : image.pixels) pixel = {linear[p[0]], linear[p[1]], linear[p[2]]}, p += 3;
-    return image;
-  }
+  if (!is_png(bytes) || stbi_is_16_bit_from_memory(bytes.data(), static_cast<int>(bytes.size())) == 0)
+    return linear_image(decode_stb8(bytes, where, tga));
   auto size = check_stb(bytes, where, tga);
   int width = 0, height = 0, channels = 0;
   StbPixels<stbi_us> data(
@@ -131,12 +121,6 @@ Bytes encode_png(int width, int height, ByteView rgb) {
   Bytes out;
   if (stbi_write_png_to_func(append, &out, width, height, 3, rgb.data(), width * 3) == 0)
     throw std::bad_alloc();
-  return out;
-}
-
-Bytes encode_jpg(int width, int height, ByteView rgb) {
-  Bytes out;
-  if (stbi_write_jpg_to_func(append, &out, width, height, 3, rgb.data(), 95) == 0) throw std::bad_alloc();
   return out;
 }
 

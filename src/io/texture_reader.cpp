@@ -37,6 +37,8 @@ std::shared_ptr<const Texture> read_texture(const std::string& path) {
   Picture8 picture;
   if (is_stb_format(bytes))
     picture = decode_stb8(bytes, where);
+  else if (is_jpg(bytes))
+    picture = decode_jpg(bytes, where);
   else if (ends_in_tga(path))
     picture = decode_stb8(bytes, where, true);
   else

@@ -1,6 +1,10 @@
 #include "io/image_codec.h"
 
+#include "core/color.h"
+
 #include <fmt/format.h>
+
+#include <array>
 
 namespace candela {
 
@@ -16,6 +20,15 @@ void check_image_size(const Location& where, std::int64_t width, std::int64_t he
 
 Error damaged_image(const Location& where, std::string_view cause) {
   return input_error(where, "image", cause, "save it again from an image program");
+}
+
+Image linear_image(const Picture8& picture) {
+  std::array<float, 256> linear;
+  for (std::size_t i = 0; i < 256; ++i) linear[i] = linear_from_srgb(static_cast<float>(i) / 255.0f);
+  Image image{picture.width, picture.height, std::vector<vec3>(picture.rgb.size() / 3)};
+  const std::uint8_t* p = picture.rgb.data();
+  for (vec3& pixel : image.pixels) pixel = {linear[p[0]], linear[p[1]], linear[p[2]]}, p += 3;
+  return image;
 }
 
 } // namespace candela
