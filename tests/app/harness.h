@@ -130,6 +130,7 @@ struct HarnessOptions {
   std::filesystem::path screenshot_folder = ".";
 };
 
+/// One at a time: the newest context is the current one.
 class ViewerHarness {
 public:
   explicit ViewerHarness(Document document = test_document(), const HarnessOptions& options = {})
