@@ -13,7 +13,7 @@ Bsdf make_bsdf(MaterialType type, vec3 diffuse, vec3 specular, float exponent, f
   // No reflection gives back more than it got: where both lobes ask for more than 1, the diffuse one gives
   // in.
   case MaterialType::phong: return Phong{glm::min(diffuse, 1.0f - specular), specular, exponent};
-  case MaterialType::ggx: return Ggx(specular, roughness);
+  case MaterialType::ggx: return Ggx{specular, roughness};
   case MaterialType::mirror: return Mirror{specular, glm::min(diffuse, 1.0f - specular)};
   case MaterialType::dielectric: return Dielectric{ior, transmittance};
   }
