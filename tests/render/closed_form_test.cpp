@@ -35,8 +35,8 @@ double cornell_exact(const Camera& camera, int size, int x, int y, double albedo
   return albedo / kPiD * emission * sum / (kCells * kCells);
 }
 
-/// Pixels that see the back wall above both blocks (y > 340; the light is below no part of a block from
-/// there).
+/// Pixels that see the back wall above both blocks (y > 340: nothing hides the light from there) but not
+/// close to the ceiling, where the light is seen so edge-on that a pixel's noise is largest.
 std::vector<ivec2> upper_wall_pixels(const Camera& camera, int size) {
   std::vector<ivec2> pixels;
   for (int y = 0; y < size; ++y)
@@ -45,7 +45,7 @@ std::vector<ivec2> upper_wall_pixels(const Camera& camera, int size) {
       for (int corner = 0; corner < 4; ++corner) {
         dvec3 p = cornell_wall_point(dvec3(camera.position), static_cast<double>(camera.vertical_fov), size,
                                      x + corner % 2, y + corner / 2, 559.2);
-        inside &= p.x > 1 && p.x < 551 && p.y > 340 && p.y < 547;
+        inside &= p.x > 1 && p.x < 551 && p.y > 340 && p.y < 510;
       }
       if (inside) pixels.emplace_back(x, y);
     }
@@ -62,7 +62,7 @@ void expect_cornell(bool blocks, LightSampling light, MisHeuristic heuristic, do
   s.document.settings.path.mis_heuristic = heuristic;
   const Camera& camera = s.document.scene.camera;
   std::vector<ivec2> pixels = upper_wall_pixels(camera, kSize);
-  ASSERT_GE(pixels.size(), 40u);
+  ASSERT_GE(pixels.size(), 30u);
   PassOptions options;
   for (ivec2 p : pixels) { // the smallest window of them all
     if (options.crop.width == 0) options.crop = {p.x, p.y, 1, 1};
@@ -73,6 +73,7 @@ void expect_cornell(bool blocks, LightSampling light, MisHeuristic heuristic, do
   }
   for (SamplerType type : {SamplerType::sobol, SamplerType::independent}) {
     s.document.settings.sampler.type = type;
+    s.document.settings.stop.spp = type == SamplerType::sobol ? spp : 4096;
     s.document.settings.sampler.seed = sampler_seed(static_cast<std::uint64_t>(light) * 2 + blocks);
     Film film = render(s.document, options);
     double chi_square = 0, relative_sum = 0, relative_variance = 0;
@@ -100,16 +101,16 @@ void expect_cornell(bool blocks, LightSampling light, MisHeuristic heuristic, do
 }
 
 TEST(ClosedFormRender, CornellWallByAimingAtTheLight) {
-  expect_cornell(false, LightSampling::nee, MisHeuristic::power, 1e-3, 4096);
+  expect_cornell(false, LightSampling::nee, MisHeuristic::power, 1e-3, 16384);
 }
 TEST(ClosedFormRender, CornellWallByMis) {
-  expect_cornell(true, LightSampling::mis, MisHeuristic::power, 5e-3, 4096);
+  expect_cornell(true, LightSampling::mis, MisHeuristic::power, 5e-3, 16384);
 }
 TEST(ClosedFormRender, CornellWallByMisWithTheBalanceHeuristic) {
-  expect_cornell(false, LightSampling::mis, MisHeuristic::balance, 5e-3, 4096);
+  expect_cornell(false, LightSampling::mis, MisHeuristic::balance, 5e-3, 16384);
 }
 TEST(ClosedFormRender, CornellWallWithBlocksByAimingAtTheLight) {
-  expect_cornell(true, LightSampling::nee, MisHeuristic::power, 1e-3, 4096);
+  expect_cornell(true, LightSampling::nee, MisHeuristic::power, 1e-3, 16384);
 }
 
 TEST(ClosedFormRender, CornellWallByChance) {

@@ -93,10 +93,11 @@ TEST(WarpStatistical, DirectionsHaveTheirDensities) {
   float cap = 0.3f;
   const Case cases[] = {
       {"sphere", sample_uniform_sphere, [](vec3) { return kUniformSpherePdf; }},
-      {"hemisphere", sample_uniform_hemisphere, [](vec3 w) { return w.z > 0 ? kUniformHemispherePdf : 0; }},
+      {"hemisphere", sample_uniform_hemisphere, [](vec3 w) { return w.z >= 0 ? kUniformHemispherePdf : 0; }},
       {"cosine", sample_cosine_hemisphere, [](vec3 w) { return cosine_hemisphere_pdf(w.z); }},
       {"cone", [=](vec2 u) { return sample_uniform_cone(u, cap); },
-       [=](vec3 w) { return 1 - w.z < cap ? uniform_cone_pdf(cap) : 0; }},
+       // A cosine is rounded to 6e-8.
+       [=](vec3 w) { return 1 - w.z < cap + 2e-7f ? uniform_cone_pdf(cap) : 0; }},
   };
   std::uint64_t stream = 10;
   for (const Case& c : cases) {
