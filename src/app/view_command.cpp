@@ -16,6 +16,9 @@ int run_view(const SceneOptions& options) {
   viewer.document = std::move(loaded.document);
   viewer.scene_path = options.path;
   viewer.threads = options.threads;
+  viewer.reading = {options.allow_outside};           // holds for scenes opened later, too
+  for (const std::string& setting : options.settings) // who asks for a size gets it
+    if (setting.starts_with("film.width=") || setting.starts_with("film.height=")) viewer.fit_film = false;
   for (const Warning& w : loaded.warnings) viewer.warnings.push_back(w.text);
   run_window(std::move(viewer));
   return 0;

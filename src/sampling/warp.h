@@ -28,7 +28,7 @@ inline constexpr float kUniformDiscPdf = kInvPi;
 /// equal-area projection of the concentric disc.
 inline vec3 sample_uniform_cone(vec2 u, float one_minus_cos_max) {
   vec2 d = sample_uniform_disc(u);
-  float one_minus_cos = glm::dot(d, d) * one_minus_cos_max;
+  float one_minus_cos = std::min(glm::dot(d, d), 1.0f) * one_minus_cos_max;
   return vec3(d * safe_sqrt(one_minus_cos_max * (2 - one_minus_cos)), 1 - one_minus_cos);
 }
 /// In 1/sr.

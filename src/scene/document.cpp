@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace candela {
 
 namespace {
@@ -40,16 +42,24 @@ std::string row_problem(std::span<const Field<T>> rows, const T& owner, std::str
   return {};
 }
 
-std::string instance_problem(const SceneDesc& scene, const Instance& instance, std::size_t index) {
+std::string mesh_problem(const Mesh& mesh) {
+  for (const uvec3& t : mesh.triangles)
+    if (std::max({t.x, t.y, t.z}) >= mesh.positions.size()) return "a vertex index is out of range";
+  for (std::uint32_t slot : mesh.material_slots)
+    if (slot >= mesh.slot_names.size()) return "a material slot is out of range";
+  return {};
+}
+
+/// `checked` holds the meshes that are known to be well: many instances may share one.
+std::string instance_problem(const SceneDesc& scene, const Instance& instance, std::size_t index,
+                             std::set<const Mesh*>& checked) {
   std::size_t slots = 1;
   if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
     if (!*mesh) return fmt::format("instances[{}]: has no mesh", index);
     slots = (*mesh)->slot_names.size();
-    for (const uvec3& t : (*mesh)->triangles)
-      if (std::max({t.x, t.y, t.z}) >= (*mesh)->positions.size())
-        return fmt::format("instances[{}].mesh: a vertex index is out of range", index);
-    for (std::uint32_t slot : (*mesh)->material_slots)
-      if (slot >= slots) return fmt::format("instances[{}].mesh: a material slot is out of range", index);
+    if (checked.insert(mesh->get()).second)
+      if (auto problem = mesh_problem(**mesh); !problem.empty())
+        return fmt::format("instances[{}].mesh: {}", index, problem);
   } else if (const auto* sphere = std::get_if<SphereShape>(&instance.shape);
              sphere && !(sphere->radius > 0 && std::isfinite(sphere->radius))) {
     return fmt::format("instances[{}].radius: {} is not a positive number", index, sphere->radius);
@@ -115,8 +125,9 @@ std::string document_problem(const Document& document) {
     if (light.type == LightType::directional && glm::length(light.direction) == 0)
       return fmt::format("lights[{}].direction: is zero", i);
   }
+  std::set<const Mesh*> checked;
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
-    if (auto p = instance_problem(scene, scene.instances[i], i); !p.empty()) return p;
+    if (auto p = instance_problem(scene, scene.instances[i], i, checked); !p.empty()) return p;
   const Camera& camera = scene.camera;
   vec3 forward = camera.target - camera.position;
   if (!(glm::length(forward) > 0)) return "camera.target: is where the camera is";

@@ -130,6 +130,7 @@ void RenderSession::State::render_loop() {
       active = false;
     }
     changed.notify_all();
+    if (!active && options.on_publish) options.on_publish(); // the phase is news, too
   }
 }
 
