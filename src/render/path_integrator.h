@@ -18,8 +18,8 @@ vec3 path_radiance(const RenderScene& scene, Ray ray, Sampler& sampler, const Pa
 vec3 view_value(const RenderScene& scene, Ray ray, vec3 forward, View view, Sampler& sampler,
                 RayCounts& counts);
 
-/// The closest surface of the ray, looking through what is transparent with the chance of 1 - opacity.
-/// Transparent crossings are numbered from `crossing` on, each has a random number of its own.
+/// The closest surface of the ray, looking through what is transparent with the chance of 1 - opacity; each
+/// crossing has a random number of its own. The ray then starts behind the last one that it passed.
 bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit, RayCounts& counts);
 
 } // namespace candela

@@ -35,7 +35,7 @@ struct PassResult {
 };
 
 /// Adds the range's samples to the film. The samples do not depend on threads, tiles or earlier passes. Polls
-/// `stop` between rows of tiles and ends early where it is set; the film then holds whole samples, of some
+/// `stop` between tiles and ends early where it is set; the film then holds whole samples, of some
 /// pixels more than of others. Samples that are not finite are logged, not added.
 PassResult render_pass(const RenderScene& scene, const Document& document, const SampleRange& range,
                        Film& film, const std::atomic<bool>& stop, const PassOptions& options = {});
