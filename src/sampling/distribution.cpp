@@ -59,13 +59,12 @@ PiecewiseConstant1D::PiecewiseConstant1D(std::span<const float> weights) {
   integral_ = static_cast<float>(sum / static_cast<double>(n));
   cdf_.resize(n + 1);
   pdf_.resize(n);
-  std::size_t end = n; // one past the last cell that can be drawn
-  while (sum > 0 && weights[end - 1] == 0) --end;
   double running = 0;
   for (std::size_t i = 0; i < n; ++i) {
     double share = sum > 0 ? weights[i] / sum : 1 / static_cast<double>(n);
     pdf_[i] = static_cast<float>(share * static_cast<double>(n));
-    cdf_[i] = i < end ? static_cast<float>(running) : 1.0f;
+    cdf_[i] =
+        static_cast<float>(running); // 1 before a tail without weight: a double's rounding does not show
     running += share;
   }
   cdf_[n] = 1;
