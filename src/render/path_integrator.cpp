@@ -271,7 +271,7 @@ vec3 view_value(const RenderScene& scene, Ray ray, vec3 forward, View view, Samp
     return 0.5f * n + 0.5f;
   }
   case View::depth: return vec3(glm::dot(surface.position - origin, forward));
-  case View::radiance: break;
+  default: break;
   }
   return vec3(0);
 }

@@ -141,7 +141,7 @@ vec3 tone_mapped(vec3 linear, const DisplaySettings& display) {
   switch (curve.kind) {
   case ToneMap::reinhard: return reinhard(color, curve.inverse_white_squared);
   case ToneMap::filmic: return {filmic(color.x), filmic(color.y), filmic(color.z)};
-  case ToneMap::srgb: break;
+  default: break;
   }
   return color;
 }

@@ -110,7 +110,9 @@ class Sampler {
 public:
   /// `strata` is a side of the stratified sampler's grid, in [1, 65535].
   Sampler(SamplerType type, std::uint64_t seed, int strata = 4)
-      : type_(type), strata_(static_cast<std::uint32_t>(strata)), seed_(hash_combine(0, seed)) {
+      : type_(type == SamplerType::independent || type == SamplerType::stratified ? type
+                                                                                  : SamplerType::sobol),
+        strata_(static_cast<std::uint32_t>(strata)), seed_(hash_combine(0, seed)) {
     start({0, 0}, 0);
   }
 
@@ -155,7 +157,7 @@ public:
       return {in_cell(draw.cell % strata_, strata_, high(draw.jitter)),
               in_cell(draw.cell / strata_, strata_, low(draw.jitter))};
     }
-    case SamplerType::sobol: break;
+    default: break;
     }
     auto d = static_cast<std::uint32_t>(dimension);
     if (index == 0) return {x_[d], y_[d]};

@@ -4,19 +4,37 @@
 // the README and validation all iterate it.
 
 #include "sampling/direction_type.h"
+#include "sampling/filter_type.h"
 #include "sampling/sampler_type.h"
 #include "scene/scene_desc.h"
 
 namespace candela {
 
-enum class FilterType : int { box, gaussian };
+enum class Integrator : int { path, direct, whitted, ao };
 enum class LightSampling : int { bsdf, nee, mis };
 enum class MisHeuristic : int { balance, power };
 enum class RussianRoulette : int { off, throughput, fixed };
 enum class PathComponent : int { all, emitted, direct, indirect };
-enum class View : int { radiance, albedo, normal, depth };
+/// What a pixel shows. The first five rows of names are properties of the first surface; the rest is what the
+/// render knows of itself.
+enum class View : int {
+  radiance,
+  albedo,
+  normal,           ///< shading normal
+  geometric_normal, ///< by the winding of triangles
+  depth,
+  uv,
+  material,
+  bvh_cost,    ///< nodes and primitives that the camera ray tests
+  depth_share, ///< of the radiance, by path length
+  light_share, ///< of the direct light, by the strategy that found it
+  variance,
+  samples,
+  nonfinite
+};
 enum class BrdfOverride : int { none, diffuse, phong, ggx, mirror, dielectric };
-enum class ToneMap : int { reinhard, filmic, srgb };
+enum class ToneMap : int { reinhard, reinhard_simple, filmic, aces, srgb };
+enum class FalseColor : int { automatic, off, viridis, magma };
 
 struct FilmSettings {
   int width = 512;
@@ -34,6 +52,11 @@ struct SamplerSettings {
   bool operator==(const SamplerSettings&) const = default;
 };
 
+struct AmbientOcclusionSettings {
+  float distance = 0; ///< scene units within which a surface occludes; 0: any
+  bool operator==(const AmbientOcclusionSettings&) const = default;
+};
+
 /// Terms follow Mitsuba: depths count path segments.
 struct PathSettings {
   LightSampling light_sampling = LightSampling::mis;
@@ -45,7 +68,9 @@ struct PathSettings {
   int rr_depth = 3;            ///< the segment after which Russian roulette starts
   float rr_probability = 0.9f; ///< chance to go on, of rr = fixed
   PathComponent component = PathComponent::all;
-  float clamp = 0; ///< largest value of a sample's channel; 0: off (it biases)
+  int only_depth = 0; ///< show paths of this many segments alone; 0: all
+  int split = 1;      ///< paths that go on from the first surface that is not specular
+  float clamp = 0;    ///< largest value of a sample's channel; 0: off (it biases)
   bool operator==(const PathSettings&) const = default;
 };
 
@@ -60,25 +85,39 @@ struct OverrideSettings {
   bool operator==(const OverrideSettings&) const = default;
 };
 
+/// Blocks of pixels whose error is small stop early; the means of those that stop by luck are biased.
+struct AdaptiveSettings {
+  float error = 0;  ///< relative error of a block at which it stops; 0: every pixel gets all samples
+  int min_spp = 16; ///< before any stops
+  bool operator==(const AdaptiveSettings&) const = default;
+};
+
 /// When a render is finished; 0 switches a criterion off.
 struct StopSettings {
   int spp = 64;
-  float time = 0; ///< seconds of rendering
+  float time = 0;  ///< seconds of rendering
+  float noise = 0; ///< relative error of the image, the square root of its estimated relMSE
   bool operator==(const StopSettings&) const = default;
 };
 
 /// How the picture is shown and written to 8-bit files; never changes the accumulation.
 struct DisplaySettings {
   ToneMap tone_map = ToneMap::srgb;
-  float exposure = 0;    ///< stops (powers of two)
-  float white_point = 4; ///< luminance that extended Reinhard maps to white
+  float exposure = 0;         ///< stops (powers of two)
+  bool auto_exposure = false; ///< the exposure is relative to one found from the picture
+  float white_point = 4;      ///< luminance that extended Reinhard maps to white
+  FalseColor false_color = FalseColor::automatic;
+  bool denoise = false;
   bool operator==(const DisplaySettings&) const = default;
 };
 
 struct RenderSettings {
   FilmSettings film;
   SamplerSettings sampler;
+  Integrator integrator = Integrator::path;
   PathSettings path;
+  AmbientOcclusionSettings ao;
+  AdaptiveSettings adaptive;
   OverrideSettings override_brdf;
   View view = View::radiance;
   StopSettings stop;

@@ -12,14 +12,21 @@
 
 namespace candela {
 
-/// A perspective camera: pinhole, or a thin lens when aperture_radius > 0.
+enum class Projection : int { perspective, orthographic };
+
+/// A pinhole, or a thin lens when aperture_radius > 0.
 struct Camera {
   vec3 position{0, 0, 5};
   vec3 target{0, 0, 0};
   vec3 up{0, 1, 0};
   float vertical_fov = radians(45.0f); ///< radians, of the full image height
-  float aperture_radius = 0;           ///< scene units; 0: pinhole
-  float focus_distance = 0;            ///< scene units along the view axis; 0: the distance to the target
+  Projection projection = Projection::perspective;
+  float orthographic_height = 2; ///< scene units, of the full image height
+  float aspect = 0;              ///< width over height of the view; 0: that of the film, pixels are square
+  float aperture_radius = 0;     ///< scene units; 0: pinhole
+  int blades = 0;                ///< sides of the aperture's polygon; below 3: round
+  float blade_rotation = 0;      ///< radians
+  float focus_distance = 0;      ///< scene units along the view axis; 0: the distance to the target
   bool operator==(const Camera&) const = default;
 
   float effective_focus_distance() const {
@@ -83,8 +90,16 @@ struct Instance {
   bool operator==(const Instance&) const = default;
 };
 
+/// A view to come back to.
+struct Bookmark {
+  std::string name;
+  Camera camera;
+  bool operator==(const Bookmark&) const = default;
+};
+
 struct SceneDesc {
   Camera camera;
+  std::vector<Bookmark> bookmarks;
   std::vector<Material> materials;
   std::vector<LightDesc> lights;
   std::vector<Instance> instances;

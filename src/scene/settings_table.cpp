@@ -12,16 +12,22 @@ namespace candela {
 namespace {
 
 constexpr auto kInf = std::numeric_limits<double>::infinity();
-constexpr std::string_view kFilters[] = {"box", "gaussian"};
-constexpr std::string_view kSamplers[] = {"independent", "stratified", "sobol"};
+constexpr std::string_view kFilters[] = {"box", "tent", "gaussian", "blackman_harris", "mitchell"};
+constexpr std::string_view kSamplers[] = {"independent", "stratified", "halton",    "sobol",
+                                          "pmj02",       "lattice",    "blue_noise"};
+constexpr std::string_view kIntegrators[] = {"path", "direct", "whitted", "ao"};
 constexpr std::string_view kLightSampling[] = {"bsdf", "nee", "mis"};
 constexpr std::string_view kHeuristics[] = {"balance", "power"};
 constexpr std::string_view kDirections[] = {"uniform", "cosine", "bsdf"};
 constexpr std::string_view kRoulette[] = {"off", "throughput", "fixed"};
 constexpr std::string_view kComponents[] = {"all", "emitted", "direct", "indirect"};
 constexpr std::string_view kOverrides[] = {"none", "diffuse", "phong", "ggx", "mirror", "dielectric"};
-constexpr std::string_view kViews[] = {"radiance", "albedo", "normal", "depth"};
-constexpr std::string_view kToneMaps[] = {"reinhard", "filmic", "srgb"};
+constexpr std::string_view kViews[] = {"radiance", "albedo",   "normal",   "geometric_normal", "depth",
+                                       "uv",       "material", "bvh_cost", "depth_share",      "light_share",
+                                       "variance", "samples",  "nonfinite"};
+constexpr std::string_view kToneMaps[] = {"reinhard", "reinhard_simple", "filmic", "aces", "srgb"};
+constexpr std::string_view kFalseColors[] = {"auto", "off", "viridis", "magma"};
+constexpr std::string_view kProjections[] = {"perspective", "orthographic"};
 
 constexpr auto kImage = Invalidates::image;
 
@@ -35,6 +41,11 @@ const Field<Document> kTable[] = {
     {{"sampler.strata", FieldType::integer, 1, 64, "", "Strata a side of the stratified sampler"},
      AT(settings.sampler.strata)},
 
+    {{"integrator", FieldType::choice, 0, 0, "",
+      "Full paths; direct light alone; Whitted's ray tracing (direct light and perfect mirrors); ambient "
+      "occlusion",
+      kImage, kIntegrators},
+     AT(settings.integrator)},
     {{"path.light_sampling", FieldType::choice, 0, 0, "",
       "How direct light is found: by chance (bsdf), by aiming at lights (nee), or both, weighted (mis)",
       kImage, kLightSampling},
@@ -58,6 +69,12 @@ const Field<Document> kTable[] = {
      AT(settings.path.rr_probability)},
     {{"path.component", FieldType::choice, 0, 0, "", "Which part of the light is shown", kImage, kComponents},
      AT(settings.path.component)},
+    {{"path.only_depth", FieldType::integer, 0, 1000000, "segments",
+      "Shows the light of paths of this length alone (1: emitters seen, 2: direct, 3: one bounce); 0: all"},
+     AT(settings.path.only_depth)},
+    {{"path.split", FieldType::integer, 1, 64, "paths",
+      "Paths that go on from the first surface that is not specular, each with its share of the weight"},
+     AT(settings.path.split)},
     {{"path.clamp",
       FieldType::real,
       0,
@@ -68,6 +85,30 @@ const Field<Document> kTable[] = {
       {},
       true},
      AT(settings.path.clamp)},
+
+    {{"ao.distance",
+      FieldType::real,
+      0,
+      1e9,
+      "scene units",
+      "Distance within which a surface occludes, of integrator = ao; 0: any",
+      kImage,
+      {},
+      true},
+     AT(settings.ao.distance)},
+    {{"adaptive.error",
+      FieldType::real,
+      0,
+      1,
+      "",
+      "Blocks of pixels stop at this relative error; 0: all get every sample (stopping by luck biases)",
+      kImage,
+      {},
+      true},
+     AT(settings.adaptive.error)},
+    {{"adaptive.min_spp", FieldType::integer, 2, 1000000, "samples",
+      "Samples that every pixel gets before a block may stop"},
+     AT(settings.adaptive.min_spp)},
 
     {{"override.brdf", FieldType::choice, 0, 0, "", "Renders every surface as this one material", kImage,
       kOverrides},
@@ -91,7 +132,8 @@ const Field<Document> kTable[] = {
     {{"film.filter_radius", FieldType::real, 0.01, 8, "pixels",
       "Half the filter's full width; the gaussian's sigma is a third of it"},
      AT(settings.film.filter_radius)},
-    {{"view", FieldType::choice, 0, 0, "", "What a pixel shows: radiance, or a property of the first surface",
+    {{"view", FieldType::choice, 0, 0, "",
+      "What a pixel shows: radiance, a property of the first surface, or what the render knows of itself",
       kImage, kViews},
      AT(settings.view)},
 
@@ -102,6 +144,22 @@ const Field<Document> kTable[] = {
      AT(scene.camera.up)},
     {{"camera.vertical_fov", FieldType::angle, 0.1, 179, "degrees", "Vertical field of view"},
      AT(scene.camera.vertical_fov)},
+    {{"camera.projection", FieldType::choice, 0, 0, "", "Perspective, or parallel rays", kImage,
+      kProjections},
+     AT(scene.camera.projection)},
+    {{"camera.orthographic_height",
+      FieldType::real,
+      1e-6,
+      1e9,
+      "scene units",
+      "Height of the orthographic view",
+      kImage,
+      {},
+      true},
+     AT(scene.camera.orthographic_height)},
+    {{"camera.aspect", FieldType::real, 0, 100, "",
+      "Width over height of the view, however many pixels it has; 0: square pixels"},
+     AT(scene.camera.aspect)},
     {{"camera.aperture_radius",
       FieldType::real,
       0,
@@ -123,20 +181,38 @@ const Field<Document> kTable[] = {
       true},
      AT(scene.camera.focus_distance)},
 
+    {{"camera.blades", FieldType::integer, 0, 16, "", "Blades of the aperture; below 3 it is round"},
+     AT(scene.camera.blades)},
+    {{"camera.blade_rotation", FieldType::angle, -360, 360, "degrees", "Turn of the aperture's blades"},
+     AT(scene.camera.blade_rotation)},
+
     {{"stop.spp", FieldType::integer, 0, 1000000000, "samples", "Samples a pixel at which to stop; 0: never",
       Invalidates::nothing},
      AT(settings.stop.spp)},
     {{"stop.time", FieldType::real, 0, 1e9, "s", "Seconds of rendering at which to stop; 0: never",
       Invalidates::nothing},
      AT(settings.stop.time)},
+    {{"stop.noise",
+      FieldType::real,
+      0,
+      10,
+      "",
+      "Relative error of the image, the square root of its estimated relMSE, at which to stop; 0: never",
+      Invalidates::nothing,
+      {},
+      true},
+     AT(settings.stop.noise)},
 
     {{"display.tone_map", FieldType::choice, 0, 0, "",
-      "Extended Reinhard by luminance, a filmic curve, or sRGB encoding alone", Invalidates::display,
-      kToneMaps},
+      "Reinhard by luminance (extended by a white point, or simple), filmic curves, or sRGB encoding alone",
+      Invalidates::display, kToneMaps},
      AT(settings.display.tone_map)},
     {{"display.exposure", FieldType::real, -20, 20, "stops", "Powers of two that multiply the picture",
       Invalidates::display},
      AT(settings.display.exposure)},
+    {{"display.auto_exposure", FieldType::boolean, 0, 0, "",
+      "The exposure is found from the picture; display.exposure is added", Invalidates::display},
+     AT(settings.display.auto_exposure)},
     {{"display.white_point",
       FieldType::real,
       0.01,
@@ -147,6 +223,13 @@ const Field<Document> kTable[] = {
       {},
       true},
      AT(settings.display.white_point)},
+    {{"display.false_color", FieldType::choice, 0, 0, "",
+      "Luminance in colours: for the views that are one number (auto), never, or always",
+      Invalidates::display, kFalseColors},
+     AT(settings.display.false_color)},
+    {{"display.denoise", FieldType::boolean, 0, 0, "",
+      "Shows and writes the picture denoised, under that name (denoising biases)", Invalidates::display},
+     AT(settings.display.denoise)},
 };
 
 #undef AT
