@@ -97,6 +97,7 @@ struct DirectionalLight {
 struct ConstantLight {
   vec3 radiance{0};
 
+  vec3 radiance_from(vec3) const { return radiance; }
   std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
   float pdf(const LightReference& ref, vec3, vec3 direction) const {
     return cosine_hemisphere_pdf(glm::dot(ref.normal, direction));
@@ -111,6 +112,18 @@ inline std::optional<LightSample> sample_light(const Light& light, const LightRe
 }
 inline float light_pdf(const Light& light, const LightReference& ref, vec3 point, vec3 direction) {
   return std::visit([&](const auto& l) { return l.pdf(ref, point, direction); }, light);
+}
+/// What an infinite light sends to the scene from `direction` (unit, away from the scene), W/(m^2 sr); 0 for
+/// lights that no ray into the distance can meet.
+inline vec3 light_radiance(const Light& light, vec3 direction) {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (requires { l.radiance_from(direction); })
+          return l.radiance_from(direction);
+        else
+          return vec3(0);
+      },
+      light);
 }
 inline bool is_delta_light(const Light& light) {
   return std::holds_alternative<PointLight>(light) || std::holds_alternative<DirectionalLight>(light);

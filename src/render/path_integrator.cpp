@@ -113,10 +113,11 @@ private:
   void add_background(const Ray& ray, int depth) {
     if (!wanted(depth)) return;
     for (std::uint32_t i : scene_.infinite_lights()) {
-      const auto& light = std::get<ConstantLight>(scene_.lights()[i]);
-      float aimed =
-          needs_aimed_pdf() ? scene_.all_lights().pmf(i) * light.pdf(reference_, {}, ray.direction) : 0;
-      radiance_ += throughput_ * light.radiance * weight_by_chance(aimed);
+      const Light& light = scene_.lights()[i];
+      float aimed = needs_aimed_pdf()
+                        ? scene_.all_lights().pmf(i) * light_pdf(light, reference_, {}, ray.direction)
+                        : 0;
+      radiance_ += throughput_ * light_radiance(light, ray.direction) * weight_by_chance(aimed);
     }
   }
 
