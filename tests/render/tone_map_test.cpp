@@ -20,7 +20,11 @@ int reference_code(float x) {
 }
 
 DisplaySettings display_of(ToneMap kind, float exposure = 0, float white = 4) {
-  return {kind, exposure, white};
+  DisplaySettings d;
+  d.tone_map = kind;
+  d.exposure = exposure;
+  d.white_point = white;
+  return d;
 }
 
 TEST(ToneMapSrgb, AgreesWithTheFormulaAtEveryChangeOfTheCode) {
