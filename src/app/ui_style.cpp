@@ -1,25 +1,15 @@
 #include "app/ui_style.h"
 
+#include "app/typeface.h"
+
 #include <imgui.h>
 
-#include <array>
 #include <cmath>
-#include <filesystem>
-#include <system_error>
 
 namespace candela {
 
 namespace {
 
-// fonts-roboto-unhinted and fonts-dejavu-core have tabular digits; fonts-inter has them only as an OpenType
-// feature, which ImGui cannot switch on.
-constexpr std::array kTypefaces = {
-    "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
-    "/usr/share/fonts/truetype/roboto/Roboto-Regular.ttf",
-    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-    "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
-    "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
-};
 constexpr float kTextSize = 15; // pixels at scale 1
 
 // Latin, Greek and Cyrillic for file and material names, dashes, bullets and the ellipsis.
@@ -34,12 +24,10 @@ UiFonts load_fonts(ImFontAtlas& atlas, float scale) {
   config.OversampleH = scale < 1.5f ? 3 : 2;
   config.OversampleV = 1;
   config.PixelSnapH = true; // and so equal advances stay equal
-  for (const char* file : kTypefaces) {
-    std::error_code failed;
-    if (!std::filesystem::is_regular_file(file, failed)) continue;
-    if (ImFont* font = atlas.AddFontFromFileTTF(file, std::round(kTextSize * scale), &config, kGlyphs))
+  if (const std::filesystem::path file = find_typeface(); !file.empty())
+    if (ImFont* font =
+            atlas.AddFontFromFileTTF(file.c_str(), std::round(kTextSize * scale), &config, kGlyphs))
       return {font, true};
-  }
   ImFontConfig fallback;
   fallback.SizePixels = std::round(13 * scale);
   return {atlas.AddFontDefault(&fallback), false};
