@@ -23,6 +23,7 @@ void add_common_options(CLI::App& command, SceneOptions& o) {
   command.add_option("--set", o.settings, "Change a setting, KEY=VALUE; see `candela settings`")
       ->take_all()
       ->allow_extra_args(false);
+  command.add_option("--bookmark", o.bookmark, "Look through the camera of this bookmark of the scene");
   command.add_flag("--allow-outside", o.allow_outside,
                    "Let the scene read files outside its own folder tree");
   command.add_option("--threads", o.threads, "Threads to render with; 0: every core")

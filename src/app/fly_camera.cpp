@@ -20,8 +20,14 @@ vec3 rotated(vec3 v, vec3 axis, float angle) {
 Camera moved_camera(const Camera& camera, vec3 distance) {
   const vec3 forward = forward_of(camera);
   const vec3 right = glm::normalize(glm::cross(forward, camera.up));
-  const vec3 step = distance.x * right + distance.y * glm::normalize(camera.up) + distance.z * forward;
   Camera result = camera;
+  if (camera.projection == Projection::orthographic) {
+    const float reach = glm::length(camera.target - camera.position);
+    result.orthographic_height =
+        std::clamp(camera.orthographic_height * std::exp(-distance.z / reach), 1e-6f, 1e9f);
+    distance.z = 0;
+  }
+  const vec3 step = distance.x * right + distance.y * glm::normalize(camera.up) + distance.z * forward;
   result.position += step;
   result.target += step;
   return result;
@@ -43,7 +49,9 @@ Camera turned_camera(const Camera& camera, float yaw, float pitch) {
 }
 
 float radians_per_pixel(const Camera& camera, int film_height) {
-  return 2 * std::tan(0.5f * camera.vertical_fov) / static_cast<float>(std::max(film_height, 1));
+  const auto pixels = static_cast<float>(std::max(film_height, 1));
+  if (camera.projection == Projection::perspective) return 2 * std::tan(0.5f * camera.vertical_fov) / pixels;
+  return std::min(camera.orthographic_height / glm::length(camera.target - camera.position), kPi) / pixels;
 }
 
 std::string camera_problem(const Camera& camera) {

@@ -17,7 +17,9 @@ struct FlyCommand {
 };
 
 /// The camera carried by `distance` (right, up, forward; scene units). Forward is the view direction, up the
-/// camera's up vector; the target comes along, so that the focus stays at its distance.
+/// camera's up vector; the target comes along, so that the focus stays at its distance. Parallel rays show
+/// nothing of a step forward: an orthographic view becomes smaller by it instead, by a factor of e for the
+/// distance to the target.
 Camera moved_camera(const Camera& camera, vec3 distance);
 
 /// The camera turned about its position: `yaw` radians to the left about the up vector, then `pitch` radians
@@ -25,7 +27,7 @@ Camera moved_camera(const Camera& camera, vec3 distance);
 Camera turned_camera(const Camera& camera, float yaw, float pitch);
 
 /// Radians between two neighbouring pixels in the middle of an image of this height: a drag turns the camera
-/// by as much as it moved, whatever the lens.
+/// by as much as it moved, whatever the lens. Of an orthographic view: as the target moves under the hand.
 float radians_per_pixel(const Camera& camera, int film_height);
 
 /// What is wrong with the camera as a whole, though each value is in range (it looks nowhere, or along its up

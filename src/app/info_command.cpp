@@ -20,6 +20,26 @@ const char* light_name(const Light& light) {
   return kNames[light.index()];
 }
 
+/// What of the camera decides its picture, whichever kind it is.
+nlohmann::ordered_json camera_json(const Document& document) {
+  const Camera& camera = document.scene.camera;
+  nlohmann::ordered_json out = {{"projection", field_text(*find_setting("camera.projection"), document)},
+                                {"position", vector_json(camera.position)},
+                                {"target", vector_json(camera.target)},
+                                {"up", vector_json(camera.up)}};
+  if (camera.projection == Projection::orthographic)
+    out["orthographic_height"] = camera.orthographic_height;
+  else
+    out["vertical_fov"] = degrees(camera.vertical_fov);
+  if (camera.aspect > 0) out["aspect"] = camera.aspect;
+  if (camera.aperture_radius > 0) {
+    out["aperture_radius"] = camera.aperture_radius;
+    out["focus_distance"] = camera.effective_focus_distance();
+    if (camera.blades >= 3) out["blades"] = camera.blades;
+  }
+  return out;
+}
+
 } // namespace
 
 int run_info(const SceneOptions& options) {
@@ -58,9 +78,9 @@ int run_info(const SceneOptions& options) {
     count = count.is_null() ? 1 : count.get<int>() + 1;
   }
   out["lights"] = lights;
-  out["camera"] = {{"position", vector_json(desc.camera.position)},
-                   {"target", vector_json(desc.camera.target)},
-                   {"vertical_fov", degrees(desc.camera.vertical_fov)}};
+  out["camera"] = camera_json(loaded.document);
+  out["bookmarks"] = nlohmann::ordered_json::array();
+  for (const Bookmark& bookmark : desc.bookmarks) out["bookmarks"].push_back(bookmark.name);
   out["film"] = {{"width", loaded.document.settings.film.width},
                  {"height", loaded.document.settings.film.height}};
   out["bvh"] = {{"nodes", accel.nodes}, {"leaves", accel.leaves},

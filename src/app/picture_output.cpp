@@ -1,12 +1,11 @@
 #include "app/picture_output.h"
 
 #include "io/image_file.h"
-#include "render/frame.h"
-#include "render/tone_map.h"
+#include "render/display_transform.h"
 
 namespace candela {
 
-void write_picture(const Image& image, const std::string& path, const DisplaySettings& display,
+void write_picture(const Image& image, const std::string& path, const DisplaySettings& display, View view,
                    float display_scale, int spp) {
   if (is_linear_format(image_format_of(path))) {
     write_linear_image(image, path,
@@ -14,7 +13,8 @@ void write_picture(const Image& image, const std::string& path, const DisplaySet
     return;
   }
   std::vector<std::uint8_t> rgb(3 * image.pixels.size());
-  tone_map_rgb8(image.pixels, scaled_display(display, display_scale), rgb);
+  display_rgb8(image.pixels,
+               display_transform(image.pixels, image.width, image.height, display, view, display_scale), rgb);
   write_srgb8_image(image.width, image.height, rgb, path);
 }
 

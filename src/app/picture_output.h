@@ -5,8 +5,9 @@
 namespace candela {
 
 /// Writes a rendered picture in the format of the path's ending: tone-mapped (PNG, JPG, PPM), exactly as the
-/// window shows it, or linear (EXR, HDR, PFM). `display_scale` is Frame::display_scale.
-void write_picture(const Image& image, const std::string& path, const DisplaySettings& display,
+/// window shows it, or linear (EXR, HDR, PFM). `view` says what the image holds, `display_scale` is
+/// Frame::display_scale.
+void write_picture(const Image& image, const std::string& path, const DisplaySettings& display, View view,
                    float display_scale, int spp);
 
 } // namespace candela

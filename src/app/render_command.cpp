@@ -170,7 +170,8 @@ int run_render(const RenderOptions& options) {
                                   reference->height, image.width, image.height),
                       "render at the reference's --size");
   for (const std::string& path : outputs)
-    write_picture(image, path, loaded.document.settings.display, result.display_scale, result.spp);
+    write_picture(image, path, loaded.document.settings.display, loaded.document.settings.view,
+                  result.display_scale, result.spp);
 
   int threads = options.scene.threads > 0 ? options.scene.threads : omp_get_num_procs();
   if (options.stats)

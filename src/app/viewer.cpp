@@ -166,7 +166,8 @@ PixelRect Viewer::free_region() const {
 PixelRect Viewer::picture_rect() const {
   const ivec2 film = state_.picture ? ivec2(state_.picture->width, state_.picture->height)
                                     : glm::max(framebuffer_, ivec2(1));
-  if (!state_.fit_film) return letterbox(free_region(), film);
+  if (!state_.fit_film)
+    return letterbox(free_region(), view_shape(film, state_.document.scene.camera.aspect));
   // The film has the window's size, so that no panel's coming and going restarts it; its middle is kept in
   // the middle of what the panels leave free. While the window is being resized the old picture fills in.
   return letterbox(centered(free_region(), glm::max(framebuffer_, ivec2(1))), film);
@@ -193,7 +194,8 @@ void Viewer::draw_ui() {
 void Viewer::fit_film() {
   if (!state_.fit_film) return;
   FilmSettings& film = state_.document.settings.film;
-  const ivec2 size = glm::clamp(framebuffer_, ivec2(1), ivec2(16384));
+  const ivec2 size =
+      glm::clamp(fitted_film(framebuffer_, state_.document.scene.camera.aspect), ivec2(1), ivec2(16384));
   if (film.width == size.x && film.height == size.y) return;
   film.width = size.x;
   film.height = size.y;

@@ -19,6 +19,19 @@ PixelRect centered(const PixelRect& region, ivec2 film) {
   return {region.x + (region.width - film.x) / 2, region.y + (region.height - film.y) / 2, film.x, film.y};
 }
 
+ivec2 view_shape(ivec2 film, float aspect) {
+  return aspect > 0
+             ? ivec2(std::max(1, static_cast<int>(std::lround(static_cast<float>(film.y) * aspect))), film.y)
+             : film;
+}
+
+ivec2 fitted_film(ivec2 window, float aspect) {
+  const vec2 room(glm::max(window, ivec2(1)));
+  if (!(aspect > 0)) return window;
+  const vec2 size = room.x > room.y * aspect ? vec2(room.y * aspect, room.y) : vec2(room.x, room.x / aspect);
+  return glm::max(ivec2(glm::round(size)), ivec2(1));
+}
+
 Viewport::Viewport(const Gl& gl) : gl_(gl) {
   program_ = build_program(gl_, "picture");
   rectangle_ = gl_.GetUniformLocation(program_, "rectangle");

@@ -25,6 +25,13 @@ PixelRect letterbox(const PixelRect& region, ivec2 film);
 /// The film at one screen pixel a film pixel, centred on the middle of `region`.
 PixelRect centered(const PixelRect& region, ivec2 film);
 
+/// The film as it is to look on the screen: `aspect` times as wide as high, or with square pixels if it is 0.
+ivec2 view_shape(ivec2 film, float aspect);
+
+/// The film that fills the window with square pixels: of its size or, with an aspect above 0, as much of it
+/// as that leaves.
+ivec2 fitted_film(ivec2 window, float aspect);
+
 class Viewport {
 public:
   explicit Viewport(const Gl& gl);

@@ -1,4 +1,5 @@
 #include "io/candela_json.h"
+#include "io/json_camera.h"
 #include "io/json_fields.h"
 #include "io/json_mesh.h"
 #include "io/json_texture.h"
@@ -23,8 +24,8 @@ public:
         builder_(document_.scene, policy, MtlDialect::standard, warnings) {}
 
   Document run() {
-    constexpr std::string_view kKeys[] = {"candela",  "description", "camera",    "materials", "lights",
-                                          "textures", "meshes",      "instances", "settings"};
+    constexpr std::string_view kKeys[] = {"candela", "description", "camera", "bookmarks", "materials",
+                                          "lights",  "textures",    "meshes", "instances", "settings"};
     JsonValue root = tree_.root();
     expect(root, JsonType::object, "scene");
     std::map<std::string, JsonValue> parts;
@@ -44,6 +45,7 @@ public:
     };
     read("settings", &CandelaReader::settings);
     read("camera", &CandelaReader::camera);
+    read("bookmarks", &CandelaReader::bookmarks);
     read("textures", &CandelaReader::textures);
     read("materials", &CandelaReader::materials);
     read("lights", &CandelaReader::lights);
@@ -88,24 +90,8 @@ private:
     }
   }
 
-  void camera(JsonValue object) {
-    constexpr std::string_view kPrefix = "camera.";
-    expect(object, JsonType::object, "camera");
-    std::vector<std::string_view> known;
-    for (const auto& row : settings_table())
-      if (row.key.starts_with(kPrefix)) known.push_back(row.key.substr(kPrefix.size()));
-    for (auto [key, value] : object.members()) {
-      std::string full = std::string(kPrefix) + key.string();
-      const auto* row = find_setting(full);
-      if (row == nullptr) throw unknown_key(key, "camera", known);
-      read_field(*row, row->address(document_), value, full);
-    }
-    const Camera& c = document_.scene.camera;
-    if (c.position == c.target)
-      throw input_error(object.where(), "camera", "position and target are the same", "move one of them");
-    if (glm::cross(glm::dvec3(c.target) - glm::dvec3(c.position), glm::dvec3(c.up)) == glm::dvec3(0))
-      throw input_error(object.where(), "camera", "up is parallel to the view", "give another up");
-  }
+  void camera(JsonValue object) { document_.scene.camera = read_json_camera(object, "camera"); }
+  void bookmarks(JsonValue array) { document_.scene.bookmarks = read_json_bookmarks(array); }
 
   /// Calls visit(object, element) for each element of an array of objects.
   template <class Visit>

@@ -1,5 +1,6 @@
 #include "io/atomic_file.h"
 #include "io/candela_json.h"
+#include "io/json_camera.h"
 #include "io/json_fields.h"
 #include "io/json_mesh.h"
 #include "io/json_texture.h"
@@ -34,7 +35,8 @@ public:
       if (items.empty()) return;
       parts.push_back(fmt::format("  \"{}\": {}\n    {}\n  {}", key, open, joined(items, ",\n    "), close));
     };
-    add("camera", "{", rows_below("camera."), "}");
+    add("camera", "{", json_camera_members(scene_.camera), "}");
+    add("bookmarks", "[", json_bookmarks(scene_.bookmarks), "]");
     natural_textures_ = textures_are_natural();
     if (!natural_textures_) add("textures", "[", textures(), "]");
     add("materials", "[", materials(), "]");

@@ -39,6 +39,7 @@ struct Frame {
   int height = 0;
   int coarseness = 1; ///< side of the blocks of one sample while the first pass refines: 8, 4, 2, then 1
   int spp = 0;        ///< complete passes
+  View view = View::radiance; ///< what `linear` is
   std::vector<vec3>
       linear; ///< mean radiance, row 0 is the top; holes of a coarse pass filled from their block
   float display_scale =
@@ -47,11 +48,5 @@ struct Frame {
   double render_seconds = 0; ///< of this accumulation, waiting excluded
   NonFiniteLog nonfinite;
 };
-
-/// The display settings under which a frame of that display_scale is tone-mapped.
-inline DisplaySettings scaled_display(DisplaySettings display, float display_scale) {
-  display.exposure += std::log2(display_scale);
-  return display;
-}
 
 } // namespace candela

@@ -15,6 +15,9 @@ std::optional<Pick> pick(const RenderScene& scene, const Document& document, vec
   Surface surface = scene.geometry().surface(ray, *hit);
   Pick p;
   p.position = surface.position;
+  p.geometric_normal = glm::dot(surface.geometric_normal, ray.direction) > 0 ? -surface.geometric_normal
+                                                                             : surface.geometric_normal;
+  p.distance = glm::length(surface.position - ray.origin);
   p.view_depth = glm::dot(surface.position - ray.origin, camera.forward());
   p.instance = static_cast<int>(scene.geometry().instance_of(*hit));
   p.material = static_cast<int>(surface.material);

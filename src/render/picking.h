@@ -10,10 +10,12 @@ namespace candela {
 class RenderScene;
 
 struct Pick {
-  vec3 position{0};     ///< world space
-  float view_depth = 0; ///< distance along the view axis: what focus_distance means
-  int instance = -1;    ///< index into SceneDesc::instances
-  int material = -1;    ///< index into SceneDesc::materials
+  vec3 position{0};               ///< world space
+  vec3 geometric_normal{0, 0, 1}; ///< world space, unit, on the side of the camera
+  float distance = 0;             ///< from where the camera's ray begins
+  float view_depth = 0;           ///< distance along the view axis: what focus_distance means
+  int instance = -1;              ///< index into SceneDesc::instances
+  int material = -1;              ///< index into SceneDesc::materials
 };
 
 /// The first surface under the centre of a pixel (film coordinates in pixels, top-left origin).

@@ -84,15 +84,36 @@ constexpr float kHableScale = 1 / hable(11.2f);
 
 inline float filmic(float x) { return hable(2 * x) * kHableScale; }
 
+/// Hill's fit. The matrices take linear Rec. 709 to ACES AP1 with the RRT's desaturation, and back.
+inline vec3 aces(vec3 c) {
+  const vec3 v(0.59719f * c.x + 0.35458f * c.y + 0.04823f * c.z,
+               0.07600f * c.x + 0.90834f * c.y + 0.01566f * c.z,
+               0.02840f * c.x + 0.13383f * c.y + 0.83777f * c.z);
+  auto curve = [](float x) {
+    return (x * (x + 0.0245786f) - 0.000090537f) / (x * (0.983729f * x + 0.4329510f) + 0.238081f);
+  };
+  const vec3 w(curve(v.x), curve(v.y), curve(v.z));
+  return {1.60475f * w.x - 0.53108f * w.y - 0.07367f * w.z, -0.10208f * w.x + 1.10813f * w.y - 0.00605f * w.z,
+          -0.00327f * w.x - 0.07276f * w.y + 1.07602f * w.z};
+}
+
 /// What the settings mean, worked out once for a picture.
 struct Curve {
   explicit Curve(const DisplaySettings& display)
       : kind(display.tone_map), factor(std::exp2(display.exposure)),
-        inverse_white_squared(1 / sqr(display.white_point)) {}
+        inverse_white_squared(kind == ToneMap::reinhard ? 1 / sqr(display.white_point) : 0) {}
   ToneMap kind;
   float factor;
-  float inverse_white_squared;
+  float inverse_white_squared; ///< 0 without a white point
 };
+
+template <class Map>
+void map_colors(float* linear, std::size_t count, Map map) {
+  for (std::size_t i = 0; i < count; i += 3) {
+    const vec3 color = map(vec3(linear[i], linear[i + 1], linear[i + 2]));
+    linear[i] = color.x, linear[i + 1] = color.y, linear[i + 2] = color.z;
+  }
+}
 
 /// Block by block: the curve to floats, the floats to bytes; the loops are plain enough to be vectorised.
 constexpr std::size_t kBlock = 256;
@@ -107,11 +128,10 @@ void map_block(const vec3* in, std::size_t pixels, const Curve& curve, Block& bl
   float* linear = block.linear.data();
   std::memcpy(linear, in, count * sizeof(float));
   for (std::size_t i = 0; i < count; ++i) linear[i] = exposed(linear[i], curve.factor);
-  if (curve.kind == ToneMap::reinhard)
-    for (std::size_t i = 0; i < count; i += 3) {
-      vec3 color = reinhard({linear[i], linear[i + 1], linear[i + 2]}, curve.inverse_white_squared);
-      linear[i] = color.x, linear[i + 1] = color.y, linear[i + 2] = color.z;
-    }
+  if (curve.kind == ToneMap::reinhard || curve.kind == ToneMap::reinhard_simple)
+    map_colors(linear, count, [&](vec3 color) { return reinhard(color, curve.inverse_white_squared); });
+  else if (curve.kind == ToneMap::aces)
+    map_colors(linear, count, [](vec3 color) { return aces(color); });
   else if (curve.kind == ToneMap::filmic)
     for (std::size_t i = 0; i < count; ++i) linear[i] = filmic(linear[i]);
   // A loop of its own: g++ would make branches of it beside the look-up, and guess them wrong.
@@ -139,11 +159,25 @@ vec3 tone_mapped(vec3 linear, const DisplaySettings& display) {
   vec3 color(exposed(linear.x, curve.factor), exposed(linear.y, curve.factor),
              exposed(linear.z, curve.factor));
   switch (curve.kind) {
-  case ToneMap::reinhard: return reinhard(color, curve.inverse_white_squared);
+  case ToneMap::reinhard:
+  case ToneMap::reinhard_simple: return reinhard(color, curve.inverse_white_squared);
   case ToneMap::filmic: return {filmic(color.x), filmic(color.y), filmic(color.z)};
-  default: break;
+  case ToneMap::aces: return aces(color);
+  case ToneMap::srgb: break;
   }
   return color;
+}
+
+float white_level(const DisplaySettings& display) {
+  DisplaySettings unexposed = display;
+  unexposed.exposure = 0;
+  auto is_white = [&](float stops) {
+    return srgb8_from_linear(tone_mapped(vec3(std::exp2(stops)), unexposed).y) == 255;
+  };
+  float lo = -30, hi = 30; // stops; every curve rises
+  if (!is_white(hi)) return kInfinity;
+  for (int i = 0; i < 40; ++i) (is_white(0.5f * (lo + hi)) ? hi : lo) = 0.5f * (lo + hi);
+  return std::exp2(hi - display.exposure);
 }
 
 std::uint8_t srgb8_from_linear(float x) { return encode(clip(x), kSrgbTable.data()); }

@@ -13,13 +13,20 @@ namespace candela {
 /// factor of 2^stops), then
 ///   reinhard: L (1 + L / w^2) / (1 + L) of the luminance, the colour scaled along (Reinhard, Stark, Shirley
 ///             and Ferwerda, "Photographic Tone Reproduction for Digital Images", SIGGRAPH 2002, eq. 4);
+///   reinhard_simple: the same without a white point, L / (1 + L) (eq. 3);
 ///   filmic:   Hable's curve of "Uncharted 2" per channel (Hable, "Uncharted 2: HDR Lighting", GDC 2010),
-///   with
-///             its exposure bias of 2 and its linear white of 11.2, so that 5.6 becomes white;
+///             with its exposure bias of 2 and its linear white of 11.2, so that 5.6 becomes white;
+///   aces:     Hill's fit of the ACES reference rendering transform and its sRGB output transform, by channel
+///             in a wider space, so that bright saturated colours go to white (Stephen Hill, "ACES.hlsl" in
+///             BakingLab by Pettineo and Hill, 2016); middle grey becomes 0.106, as darker as ACES has it;
 ///   srgb:     nothing.
 /// Negative and NaN channels count as 0, infinite ones as very large: both stay visible as black and white
 /// spots, and are counted elsewhere.
 vec3 tone_mapped(vec3 linear, const DisplaySettings& display);
+
+/// The scene-linear grey, before the exposure, that becomes white (code 255) first; infinity where only a
+/// limit is white. A histogram marks it.
+float white_level(const DisplaySettings& display);
 
 /// round(255 s) with s the sRGB encoding (IEC 61966-2-1) of x clipped to [0, 1]: the correctly rounded result
 /// for every float, by one table look-up. NaN gives 0.

@@ -77,7 +77,51 @@ std::string instance_problem(const SceneDesc& scene, const Instance& instance, s
   return {};
 }
 
+std::string view_problem(const Camera& camera) {
+  vec3 forward = camera.target - camera.position;
+  if (!(glm::length(forward) > 0)) return "target: is where the camera is";
+  if (!(glm::length(glm::cross(glm::normalize(forward), camera.up)) > 1e-6f * glm::length(camera.up)))
+    return "up: is zero or along the view";
+  return {};
+}
+
+std::string bookmarks_problem(const std::vector<Bookmark>& bookmarks) {
+  std::set<std::string_view> names;
+  for (std::size_t i = 0; i < bookmarks.size(); ++i) {
+    if (bookmarks[i].name.empty()) return fmt::format("bookmarks[{}].name: is empty", i);
+    if (!names.insert(bookmarks[i].name).second)
+      return fmt::format("bookmarks[{}].name: there is another '{}'", i, bookmarks[i].name);
+    if (auto p = camera_value_problem(bookmarks[i].camera); !p.empty())
+      return fmt::format("bookmarks[{}].camera.{}", i, p);
+  }
+  return {};
+}
+
 } // namespace
+
+std::string camera_value_problem(const Camera& camera) {
+  constexpr std::string_view kPrefix = "camera.";
+  Document document;
+  document.scene.camera = camera;
+  for (const auto& row : settings_table()) {
+    if (!row.key.starts_with(kPrefix)) continue;
+    if (auto problem = field_problem(row, row.address(document)); !problem.empty())
+      return fmt::format("{}: {}; give {}", row.key.substr(kPrefix.size()), problem, field_domain(row));
+  }
+  return view_problem(camera);
+}
+
+bool is_scalar_view(View view) {
+  switch (view) {
+  case View::depth:
+  case View::bvh_cost:
+  case View::light_share:
+  case View::variance:
+  case View::samples:
+  case View::nonfinite: return true;
+  default: return false;
+  }
+}
 
 Invalidates compare_documents(const Document& before, const Document& after) {
   Invalidates worst = Invalidates::nothing;
@@ -93,8 +137,8 @@ Invalidates compare_documents(const Document& before, const Document& after) {
 
 bool same_content(const Document& a, const Document& b) {
   const SceneDesc &s = a.scene, &t = b.scene;
-  if (a.settings != b.settings || s.camera != t.camera || s.materials != t.materials ||
-      s.lights != t.lights || s.instances.size() != t.instances.size() ||
+  if (a.settings != b.settings || s.camera != t.camera || s.bookmarks != t.bookmarks ||
+      s.materials != t.materials || s.lights != t.lights || s.instances.size() != t.instances.size() ||
       s.textures.size() != t.textures.size())
     return false;
   for (std::size_t i = 0; i < s.textures.size(); ++i)
@@ -128,11 +172,8 @@ std::string document_problem(const Document& document) {
   std::set<const Mesh*> checked;
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
     if (auto p = instance_problem(scene, scene.instances[i], i, checked); !p.empty()) return p;
-  const Camera& camera = scene.camera;
-  vec3 forward = camera.target - camera.position;
-  if (!(glm::length(forward) > 0)) return "camera.target: is where the camera is";
-  if (!(glm::length(glm::cross(glm::normalize(forward), camera.up)) > 1e-6f * glm::length(camera.up)))
-    return "camera.up: is zero or along the view";
+  if (auto p = view_problem(scene.camera); !p.empty()) return "camera." + p;
+  if (auto p = bookmarks_problem(scene.bookmarks); !p.empty()) return p;
   return {};
 }
 

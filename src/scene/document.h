@@ -107,6 +107,9 @@ struct DisplaySettings {
   bool auto_exposure = false; ///< the exposure is relative to one found from the picture
   float white_point = 4;      ///< luminance that extended Reinhard maps to white
   FalseColor false_color = FalseColor::automatic;
+  float false_color_min = 0; ///< value at the start of the colours, in the view's unit
+  float false_color_max = 0; ///< value at their end; where it is not above the start, both are found
+                             ///< from the picture
   bool denoise = false;
   bool operator==(const DisplaySettings&) const = default;
 };
@@ -131,6 +134,9 @@ struct Document {
   bool operator==(const Document&) const = default;
 };
 
+/// Whether a pixel of the view is one number, in three equal channels, rather than a colour.
+bool is_scalar_view(View view);
+
 /// The settings table (the camera's values among them).
 std::span<const Field<Document>> settings_table();
 const Field<Document>* find_setting(std::string_view key);
@@ -144,8 +150,12 @@ Invalidates compare_documents(const Document& before, const Document& after);
 /// Equality that looks into meshes and textures.
 bool same_content(const Document& a, const Document& b);
 
+/// Why nothing can be seen through the camera: a value outside of its row ("vertical_fov: …"), or a view that
+/// goes nowhere; empty if all is well.
+std::string camera_value_problem(const Camera& camera);
+
 /// The first field of the document that breaks its row ("path.max_depth: …"), or a material index, texture
-/// index or mesh index out of range; empty when all is well.
+/// index or mesh index out of range, or a bookmark without a name of its own; empty when all is well.
 std::string document_problem(const Document& document);
 
 } // namespace candela

@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 #include "render/render_pass.h"
-#include "render/tone_map.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -245,6 +244,7 @@ void RenderSession::State::publish(bool force) {
     snapshot->coarseness = spp > 0 ? 1 : kCoarseLevels[level - 1];
     snapshot->spp = spp;
     film.resolve(snapshot->coarseness, snapshot->linear);
+    snapshot->view = current.settings.view;
     snapshot->display_scale = display_scale(*scene, current.settings);
     snapshot->rays = rays;
     snapshot->render_seconds = render_seconds;
@@ -286,7 +286,9 @@ void RenderSession::State::present_loop() {
     made->width = source->width;
     made->height = source->height;
     made->rgba.resize(4 * source->linear.size());
-    tone_map_rgba8(source->linear, scaled_display(display, source->display_scale), made->rgba);
+    made->transform = display_transform(source->linear, source->width, source->height, display, source->view,
+                                        source->display_scale);
+    display_rgba8(source->linear, made->transform, made->rgba);
     {
       std::lock_guard lock(mutex);
       picture = std::move(made);

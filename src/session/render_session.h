@@ -2,6 +2,7 @@
 // The interactive engine: the only owner of the render thread. The UI submits Documents and looks at what is
 // newest; no call of it ever waits for rendering.
 
+#include "render/display_transform.h"
 #include "render/frame.h"
 #include "render/picking.h"
 
@@ -33,6 +34,7 @@ struct SessionStatus {
 struct DisplayImage {
   std::shared_ptr<const Frame> frame; ///< what it was made from
   DisplaySettings display;            ///< and how
+  DisplayTransform transform;         ///< what they came to for this frame
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgba; ///< row 0 is the top

@@ -63,6 +63,23 @@ TEST_F(CandelaJsonRoundTrip, NothingIsNearlyNothing) {
   check(Document{});
 }
 
+TEST_F(CandelaJsonRoundTrip, BookmarksWithEveryRowOfTheirCameras) {
+  std::mt19937 random(static_cast<std::mt19937::result_type>(test::fresh_seed()));
+  SCOPED_TRACE(test::seed_note());
+  Document document;
+  for (const auto& row : settings_table()) {
+    if (!row.key.starts_with("camera.")) continue;
+    Document other;
+    randomise(row, other, random);
+    if (row.key == "camera.up") other.scene.camera.up.x += 1; // not along the view
+    document.scene.bookmarks.push_back({"\"" + std::string(row.key) + "\"\n\xc3\xa4", other.scene.camera});
+  }
+  ASSERT_GT(document.scene.bookmarks.size(), 8u);
+  const LoadedScene again = check(document);
+  EXPECT_EQ(again.document.scene.bookmarks, document.scene.bookmarks);
+  EXPECT_EQ(again.document.scene.camera, Camera{}) << "a bookmark's camera is not the scene's";
+}
+
 TEST_F(CandelaJsonRoundTrip, EveryRowOfEveryTableInIsolation) {
   std::mt19937 random(static_cast<std::mt19937::result_type>(test::fresh_seed()));
   SCOPED_TRACE(test::seed_note());

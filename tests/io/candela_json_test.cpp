@@ -338,5 +338,39 @@ TEST_F(CandelaJson, TakesAByteOrderMarkAndWindowsLineEnds) {
   EXPECT_TRUE(test::says(error("\xef\xbb\xbf{\"x\": 1}"), "s.json:1:2: scene: "));
 }
 
+TEST_F(CandelaJson, ReadsBookmarksAndRefusesOddOnes) {
+  const auto loaded = read(R"({"candela": 1, "camera": {"vertical_fov": 30}, "bookmarks": [
+    {"name": "plan", "camera": {"position": [0,9,0], "target": [0,0,0], "up": [0,0,-1], "projection": "orthographic",
+                                "orthographic_height": 12}},
+    {"name": "as it is", "camera": {}}, {"name": "no camera"}]})");
+  const auto& bookmarks = loaded.document.scene.bookmarks;
+  ASSERT_EQ(bookmarks.size(), 3u);
+  EXPECT_EQ(bookmarks[0].name, "plan");
+  EXPECT_EQ(bookmarks[0].camera.projection, Projection::orthographic);
+  EXPECT_EQ(bookmarks[0].camera.orthographic_height, 12);
+  EXPECT_EQ(bookmarks[1].camera, Camera{});
+  EXPECT_EQ(loaded.document.scene.camera.vertical_fov, radians(30.0f));
+
+  auto refused = [&](const std::string& bookmarks_json) {
+    return error("{\"candela\": 1,\n\"bookmarks\": " + bookmarks_json + "}");
+  };
+  EXPECT_TRUE(test::says(refused("{}"), "s.json:2:14: bookmarks: "));
+  EXPECT_TRUE(test::says(refused("[{}]"), "s.json:2:15: bookmarks[0]: ", {"the key \"name\" is missing"}));
+  EXPECT_TRUE(test::says(refused(R"([{"name": ""}])"), "s.json:2:24: bookmarks[0].name: ", {"it is empty"}));
+  EXPECT_TRUE(test::says(refused(R"([{"name": "a"}, {"name": "a"}])"),
+                         "s.json:2:39: bookmarks[1].name: ", {"there is another bookmark 'a'"}));
+  EXPECT_TRUE(test::says(refused(R"([{"name": "a", "camara": {}}])"),
+                         "s.json:2:29: bookmarks[0]: ", {"did you mean 'camera'?"}));
+  EXPECT_TRUE(test::says(refused(R"([{"name": "a", "camera": {"blades": 17}}])"),
+                         "s.json:2:50: bookmarks[0].camera.blades: "));
+  EXPECT_TRUE(test::says(refused(R"([{"name": "a", "camera": {"position": [1,1,1], "target": [1,1,1]}}])"),
+                         "s.json:2:39: bookmarks[0].camera: ", {"position and target are the same"}));
+  std::string many = "[";
+  for (int i = 0; i <= 10000; ++i)
+    many += (i > 0 ? ",{" : "{") + std::string("\"name\": \"") + std::to_string(i) + "\"}";
+  EXPECT_TRUE(test::says(error("{\"candela\": 1, \"bookmarks\": " + many + "]}", ExitCode::limit),
+                         "s.json:1:29: bookmarks: ", {"keep at most 10000"}));
+}
+
 } // namespace
 } // namespace candela

@@ -10,7 +10,8 @@
 namespace candela {
 namespace {
 
-constexpr ToneMap kAll[] = {ToneMap::reinhard, ToneMap::filmic, ToneMap::srgb};
+constexpr ToneMap kAll[] = {ToneMap::reinhard, ToneMap::reinhard_simple, ToneMap::filmic, ToneMap::aces,
+                            ToneMap::srgb};
 
 /// IEC 61966-2-1 in double, rounded to the nearest code.
 int reference_code(float x) {
@@ -91,6 +92,49 @@ TEST(ToneMap, ReinhardHasItsClosedFormAndKeepsTheColour) {
   EXPECT_NEAR(mapped.x, 0.5f, 1e-6f);
 }
 
+TEST(ToneMap, SimpleReinhardHasNoWhitePoint) {
+  const vec3 color(0.2f, 1.5f, 3.0f);
+  const float l = luminance(color);
+  for (float white : {0.5f, 4.0f}) {
+    const vec3 mapped = tone_mapped(color, display_of(ToneMap::reinhard_simple, 0, white));
+    EXPECT_NEAR(luminance(mapped), l / (1 + l), 1e-6f);
+    EXPECT_NEAR(mapped.y / mapped.x, color.y / color.x, 1e-5f);
+  }
+  EXPECT_NEAR(tone_mapped(vec3(1), display_of(ToneMap::reinhard_simple)).y, 0.5f, 1e-6f);
+}
+
+TEST(ToneMap, AcesIsHillsFit) {
+  // On greys the matrices do nothing (their rows sum to 1): the curve alone remains.
+  auto curve = [](double x) {
+    return (x * (x + 0.0245786) - 0.000090537) / (x * (0.983729 * x + 0.4329510) + 0.238081);
+  };
+  for (float x : {0.0f, 0.01f, 0.18f, 1.0f, 16.0f}) {
+    const vec3 mapped = tone_mapped(vec3(x), display_of(ToneMap::aces));
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(static_cast<double>(mapped[c]), curve(static_cast<double>(x)), 3e-5) << x;
+  }
+  EXPECT_NEAR(tone_mapped(vec3(0.18f), display_of(ToneMap::aces)).y, 0.1056f, 1e-4f);
+  // A red that is far too bright loses its saturation.
+  const vec3 dim = tone_mapped({0.1f, 0, 0}, display_of(ToneMap::aces));
+  const vec3 bright = tone_mapped({100, 0, 0}, display_of(ToneMap::aces));
+  EXPECT_LT(dim.y, 0.05f * dim.x);
+  EXPECT_GT(bright.y, 0.3f * bright.x);
+}
+
+TEST(ToneMap, TheWhiteLevelIsTheFirstThatIsWhite) {
+  for (ToneMap kind : kAll)
+    for (float stops : {0.0f, 3.0f, -2.5f}) {
+      const DisplaySettings display = display_of(kind, stops);
+      const float white = white_level(display);
+      ASSERT_TRUE(white > 0);
+      if (white == kInfinity) continue;
+      EXPECT_EQ(srgb8_from_linear(tone_mapped(vec3(1.001f * white), display).y), 255);
+      EXPECT_LT(srgb8_from_linear(tone_mapped(vec3(0.999f * white), display).y), 255);
+    }
+  // 254.5 / 255 encoded is 0.9955 linear.
+  EXPECT_NEAR(white_level(display_of(ToneMap::srgb)), 0.9955f, 1e-3f);
+}
+
 TEST(ToneMap, FilmicIsHablesCurve) {
   // ((x (0.15 x + 0.05) + 0.004) / (x (0.15 x + 0.5) + 0.06) - 1/15) at twice the value, over that at 11.2.
   auto curve = [](double x) {
@@ -135,17 +179,15 @@ TEST(ToneMap, NonFiniteAndExtremeValuesAreBlackOrWhite) {
     for (float white : {0.01f, 4.0f, 1e6f})
       for (float stops : {-20.0f, 0.0f, 20.0f}) {
         DisplaySettings display = display_of(kind, stops, white);
-        std::vector<vec3> in = {vec3(std::nanf("")),
-                                vec3(kInfinity),
-                                vec3(-kInfinity),
-                                vec3(3e38f),
-                                vec3(-5),
-                                vec3(0),
-                                vec3(std::nanf(""), kInfinity, -1)};
+        std::vector<vec3> in = {vec3(std::nanf("")), vec3(kInfinity), vec3(-kInfinity),
+                                vec3(3e38f),         vec3(-5),        vec3(0)};
+        if (kind != ToneMap::aces) // which mixes the channels
+          in.emplace_back(std::nanf(""), kInfinity, -1);
         std::vector<std::uint8_t> out(3 * in.size());
         tone_map_rgb8(in, display, out);
         std::vector<std::uint8_t> expected = {0,   0, 0, 255, 255, 255, 0, 0, 0,   255, 255,
                                               255, 0, 0, 0,   0,   0,   0, 0, 255, 0};
+        expected.resize(out.size());
         EXPECT_EQ(out, expected) << static_cast<int>(kind) << ' ' << white << ' ' << stops;
       }
 }
