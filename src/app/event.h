@@ -14,8 +14,10 @@ namespace candela {
 enum class Key : int {
   none,
   // clang-format off
-  a, c, d, e, p, q, s, v, w, x, y, z,
-  digit_0, minus, equal,
+  a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
+  digit_0, digit_1, digit_2, digit_3, digit_4, digit_5, digit_6, digit_7, digit_8, digit_9,
+  keypad_0, keypad_1, keypad_2, keypad_3, keypad_4, keypad_5, keypad_6, keypad_7, keypad_8, keypad_9,
+  keypad_period, minus, equal, period,
   // clang-format on
   space,
   tab,
@@ -34,6 +36,7 @@ enum class Key : int {
   up,
   down,
   f1,
+  pause,
   left_shift,
   right_shift,
   left_control,
@@ -72,10 +75,12 @@ struct Resized {
 struct FilesDropped {
   std::vector<std::string> paths;
 };
+/// The window's close button, or the window manager.
+struct CloseRequested {};
 /// All keys and buttons count as released: nobody flies on while another window has the keyboard.
 struct FocusLost {};
 
 using Event = std::variant<MouseMoved, MouseButtonChanged, MouseScrolled, KeyChanged, TextTyped, Resized,
-                           FilesDropped, FocusLost>;
+                           FilesDropped, CloseRequested, FocusLost>;
 
 } // namespace candela

@@ -15,7 +15,10 @@ void materials_panel(Ui& ui, ViewerState& state);
 void lights_panel(Ui& ui, ViewerState& state);
 void scenes_panel(Ui& ui, ViewerState& state);
 
-/// The column of all of them along the right edge of the window.
+/// What is needed at any time: undo, pause and the like; above the column.
+void tool_bar(Ui& ui, ViewerState& state, vec2 position, vec2 size);
+
+/// The column of all panels along the right edge of the window.
 void panel_column(Ui& ui, ViewerState& state, vec2 position, vec2 size);
 
 /// The line along the bottom: progress, speed, what is going on.

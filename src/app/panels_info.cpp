@@ -36,6 +36,7 @@ const char* phase_text(const ViewerState& state) {
   case SessionPhase::idle: return "idle";
   case SessionPhase::building: return "building";
   case SessionPhase::rendering: return state.status.first_image_ms < 0 ? "restarting" : "rendering";
+  case SessionPhase::paused: return "paused";
   case SessionPhase::finished: return "finished";
   case SessionPhase::failed: return "failed";
   }

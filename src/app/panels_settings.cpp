@@ -32,8 +32,10 @@ struct Group {
   bool open_at_first;
 };
 constexpr Group kGroups[] = {
-    {"path", "Light paths", true}, {"sampler", "Sampler", false},       {"stop", "When to stop", false},
-    {"film", "Film", false},       {"override", "One material", false}, {"view", "View", true},
+    {"path", "Light paths", true},       {"sampler", "Sampler", false},
+    {"stop", "When to stop", false},     {"film", "Film", false},
+    {"override", "One material", false}, {"adaptive", "Adaptive sampling", false},
+    {"ao", "Ambient occlusion", false},  {"view", "View", true},
 };
 
 /// The groups that are named above come first, in that order; a new one of the table follows them.
@@ -106,8 +108,22 @@ void camera_panel(Ui& ui, ViewerState& state) {
     }
   }
   ui.number("camera.speed", "move speed", state.speed_factor, 0.01f, 100.0f, "%.2f x", 1,
-            "Speed of flight: 1 crosses the scene in four seconds (mouse wheel over the picture).\nRestarts "
+            "Speed of flight: 1 crosses the scene in four seconds (mouse wheel while a key flies).\nRestarts "
             "nothing.\nCtrl+click to type, double-click to reset.");
+  const float quarter =
+      std::floor((ImGui::GetContentRegionAvail().x - 3 * ImGui::GetStyle().ItemSpacing.x) / 4);
+  constexpr struct {
+    const char *name, *label, *tip;
+    AxisView view;
+  } kViews[] = {{"camera.front", "Front", "Along the front axis (number pad 1; Ctrl: back)", AxisView::front},
+                {"camera.right", "Right", "From the right (number pad 3; Ctrl: left)", AxisView::right},
+                {"camera.top", "Top", "From above (number pad 7; Ctrl: below)", AxisView::top}};
+  for (const auto& entry : kViews) {
+    if (ui.button(entry.name, entry.label, entry.tip, quarter)) state.axis_view_requested = entry.view;
+    ImGui::SameLine();
+  }
+  if (ui.button("camera.frame", "Frame", "The selection, or the whole scene, into the picture (.)", quarter))
+    state.frame_requested = true;
   if (ui.button("camera.reset", "Reset view", "The camera as the scene has it (Home)"))
     state.reset_view_requested = true;
   ImGui::SameLine();

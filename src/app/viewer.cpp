@@ -1,7 +1,6 @@
 #include "app/viewer.h"
 
 #include "app/data_file.h"
-#include "app/picture_saver.h"
 #include "app/ui_style.h"
 #include "core/error.h"
 #include "io/scene_builder.h"
@@ -18,6 +17,7 @@ namespace {
 
 constexpr float kColumnWidth = 352; // at scale 1, like all lengths here
 constexpr float kStatusHeight = 24;
+constexpr float kToolHeight = 38;
 /// Windows smaller than this show the picture alone: no panel would be readable in them.
 constexpr float kMinPanelWindowWidth = 420, kMinPanelWindowHeight = 160;
 /// A window on a dense monitor may be small all the same: the panels then take no more than they would of a
@@ -62,6 +62,7 @@ Viewer::Viewer(const Gl& gl, ViewerOptions options)
   state_.fit_film = options_.fit_film;
   const Bounds3 bounds = scene_bounds(options_.document.scene);
   install_scene(std::move(options_.document), options_.scene_path, std::move(options_.warnings), bounds);
+  history_.reset(edit_state());
 }
 
 Viewer::~Viewer() { ImGui::DestroyContext(imgui_); }
@@ -104,6 +105,7 @@ void Viewer::frame(double now) {
   fly();
   serve_requests();
   fit_film();
+  keep_history();
   if (state_.edited) session_->submit(state_.document), state_.edited = false;
   ImGui::Render();
 
@@ -127,7 +129,7 @@ bool Viewer::wants_redraw() const {
 double Viewer::idle_seconds() const {
   if (fly_command().any()) return 0;
   if (typing_ && std::ranges::any_of(ImGui::GetIO().KeysDown, std::identity())) return 0; // keys repeat
-  if (is_busy(drawn_phase_) || typing_ || state_.loading > 0) return kBusyRedrawSeconds;
+  if (is_busy(drawn_phase_) || typing_ || state_.loading > 0 || history_.pending()) return kBusyRedrawSeconds;
   double idle = kIdleRedrawSeconds;
   if (!state_.notice.empty()) idle = std::min(idle, std::max(notice_until_ - now_, 0.0) + 0.01);
   const double hint_end = first_frame_ + kHintSeconds;
@@ -178,7 +180,9 @@ void Viewer::draw_ui() {
   const vec2 free_size(free.width, free.height);
   const vec2 window(framebuffer_);
   if (shows_panels()) {
-    panel_column(ui_, state_, vec2(free_size.x, 0), vec2(window.x - free_size.x, free_size.y));
+    const float tools = std::round(kToolHeight * state_.scale), width = window.x - free_size.x;
+    tool_bar(ui_, state_, vec2(free_size.x, 0), vec2(width, tools));
+    panel_column(ui_, state_, vec2(free_size.x, tools), vec2(width, free_size.y - tools));
     status_line(ui_, state_, vec2(0, free_size.y), vec2(window.x, window.y - free_size.y));
   }
   error_strip(ui_, state_, vec2(0), free_size.x);
@@ -187,7 +191,8 @@ void Viewer::draw_ui() {
   if (!shows_panels() && !state_.notice.empty())
     floating_line(ui_, "notice", state_.notice, bottom_center);
   else if (now_ - first_frame_ < kHintSeconds && !state_.help_visible)
-    floating_line(ui_, "hint", "W A S D to fly, drag to look, click to focus; F1 shows every key",
+    floating_line(ui_, "hint",
+                  "W A S D to fly, drag to look, middle or Alt+drag to orbit; F1 shows every key",
                   bottom_center);
 }
 
@@ -203,6 +208,10 @@ void Viewer::fit_film() {
 }
 
 void Viewer::serve_requests() {
+  serve_view_requests();
+  if (state_.paused != shown_paused_) session_->pause(shown_paused_ = state_.paused);
+  if (state_.step_requested) session_->step(), state_.paused = shown_paused_ = true;
+  state_.step_requested = false;
   if (state_.reset_view_requested) {
     state_.edited |= state_.document.scene.camera != state_.home.scene.camera;
     state_.document.scene.camera = state_.home.scene.camera;
@@ -217,64 +226,50 @@ void Viewer::serve_requests() {
   state_.reset_view_requested = false;
 }
 
-void Viewer::open_scene(const std::string& path) {
-  state_.loading_path = path;
-  state_.path_input = path;
-  const std::uint64_t request = ++open_requests_;
-  reader_.post([this, path, request, reading = options_.reading]() -> TaskThread::Completion {
-    std::string problem;
-    try {
-      LoadedScene loaded = read_scene(path, reading);
-      problem = camera_problem(loaded.document.scene.camera);
-      if (problem.empty()) {
-        const Bounds3 bounds = scene_bounds(loaded.document.scene);
-        return [this, path, request, bounds, scene = std::make_shared<LoadedScene>(std::move(loaded))] {
-          if (request != open_requests_) return; // another was asked for meanwhile
-          std::vector<std::string> warnings;
-          for (const Warning& warning : scene->warnings) warnings.push_back(warning.text);
-          install_scene(std::move(scene->document), path, std::move(warnings), bounds);
-          const std::size_t count = state_.warnings.size();
-          notify(count == 0 ? fmt::format("Opened {}", path)
-                            : fmt::format("Opened {} with {} warning{}: see Scenes", path, count,
-                                          count == 1 ? "" : "s"));
-        };
-      }
-      problem = fmt::format("{}: {}", path, problem);
-    } catch (const std::bad_alloc&) {
-      problem = fmt::format("{}: there is not enough memory for it: close other programs", path);
-    } catch (const std::exception& error) { // an Error, or what a library throws: shown either way
-      problem = error.what();
-    }
-    return [this, problem] { state_.error = problem; };
-  });
+void Viewer::serve_view_requests() {
+  const Camera& camera = state_.document.scene.camera;
+  if (camera_problem(camera).empty()) {
+    if (state_.axis_view_requested) set_camera(axis_camera(camera, pivot(), *state_.axis_view_requested));
+    if (state_.projection_requested) set_camera(other_projection(camera, pivot()));
+    if (state_.frame_requested) frame_selection();
+  }
+  state_.axis_view_requested.reset();
+  state_.projection_requested = state_.frame_requested = false;
 }
 
-void Viewer::install_scene(Document document, std::string path, std::vector<std::string> warnings,
-                           const Bounds3& bounds) {
-  state_.document = std::move(document);
-  state_.home = state_.document;
-  state_.scene_path = std::move(path);
-  state_.warnings = std::move(warnings);
-  state_.bounds = bounds;
-  state_.natural_speed = natural_speed(bounds, state_.document.scene.camera);
-  state_.selected_material = state_.selected_light = 0;
-  state_.error.clear();
+EditState Viewer::edit_state() const { return {state_.document, state_.fit_film, scene_}; }
+
+void Viewer::show_state(const EditState& edit) {
+  state_.document = edit.document;
+  state_.fit_film = edit.fit_film;
+  scene_ = edit.scene;
+  state_.home = scene_->home;
+  state_.scene_path = scene_->path;
+  state_.warnings = scene_->warnings;
+  state_.bounds = scene_->bounds;
+  state_.natural_speed = natural_speed(scene_->bounds, scene_->home.scene.camera);
   state_.edited = true;
 }
 
-void Viewer::save_shown_picture() {
-  writer_.post(
-      [this, image = state_.picture, folder = options_.screenshot_folder]() -> TaskThread::Completion {
-        try {
-          const SavedPicture saved = save_picture(*image, folder, "candela");
-          return [this, saved] {
-            notify(fmt::format("Saved {} and {}", saved.png.lexically_normal().string(),
-                               saved.exr.filename().string()));
-          };
-        } catch (const std::exception& error) {
-          return [this, problem = std::string(error.what())] { state_.error = problem; };
-        }
-      });
+void Viewer::keep_history() {
+  const bool in_gesture =
+      gesture_ != Gesture::none || fly_command().any() || now_ < wheel_until_ || ImGui::IsAnyItemActive();
+  const bool steps = state_.undo_requested || state_.redo_requested;
+  if (state_.edited || history_.pending())
+    history_.observe(edit_state(), state_.edited, in_gesture && !steps);
+  if (state_.undo_requested && history_.can_undo()) {
+    notify(fmt::format("Undone: {}", history_.undo_name()));
+    show_state(history_.undo());
+  } else if (state_.redo_requested && history_.can_redo()) {
+    notify(fmt::format("Done again: {}", history_.redo_name()));
+    show_state(history_.redo());
+  } else if (steps) {
+    notify(state_.undo_requested ? "There is nothing to undo" : "There is nothing to redo");
+  }
+  if (steps) fit_film(); // the window may have another size by now
+  state_.undo_requested = state_.redo_requested = false;
+  state_.undo_name = history_.undo_name();
+  state_.redo_name = history_.redo_name();
 }
 
 void Viewer::notify(std::string text) {

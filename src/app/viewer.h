@@ -3,11 +3,13 @@
 // program, the tests drive it through OSMesa; it is the same code. It runs on one thread, the UI's, and never
 // waits for rendering, reading or writing.
 
+#include "app/edit_history.h"
 #include "app/event.h"
 #include "app/fly_camera.h"
 #include "app/gl.h"
 #include "app/imgui_draw.h"
 #include "app/panels.h"
+#include "app/projection.h"
 #include "app/task_thread.h"
 #include "app/viewer_state.h"
 #include "app/viewport.h"
@@ -71,21 +73,46 @@ private:
   bool fits_into_frame(const Event& event) const;
   void apply(const Event& event);
   void apply_key(const KeyChanged& change);
-  void run_shortcuts();
   FlyCommand fly_command() const;
   void fly();
+
+  // viewer_shortcuts.cpp
+  struct KeyPress {
+    Key key;
+    bool control, shift; // as they were then: they may be released in the same frame
+  };
+  void run_shortcuts();
+  void run_control_shortcut(const KeyPress& press);
+  void run_plain_shortcut(Key key);
+
+  // viewer_picture.cpp
+  enum class Gesture { none, look, orbit, pan, zoom };
+  vec3 pivot() const; ///< what orbits and zooms are about, world space
+  std::optional<ScreenProjection> projection() const;
+  void set_camera(const Camera& camera);
   void use_mouse_on_picture();
+  void begin_gesture(int button, vec2 mouse);
+  void drag(vec2 moved);
+  void zoom(float factor);
+  void turn_wheel(float notches);
   void focus_at(vec2 screen_position);
+  void frame_selection();
+
+  // viewer_files.cpp
+  void open_scene(const std::string& path);
+  void install_scene(Document document, std::string path, std::vector<std::string> warnings,
+                     const Bounds3& bounds);
+  void save_shown_picture();
 
   // viewer.cpp
   void update_scale();
   void draw_ui();
   void fit_film();
   void serve_requests();
-  void open_scene(const std::string& path);
-  void install_scene(Document document, std::string path, std::vector<std::string> warnings,
-                     const Bounds3& bounds);
-  void save_shown_picture();
+  void serve_view_requests();
+  void keep_history();
+  void show_state(const EditState& edit);
+  EditState edit_state() const;
   void notify(std::string text);
   bool shows_panels() const;
   /// What the panels leave of the window.
@@ -106,17 +133,20 @@ private:
     bool scrolled = false;
     std::set<MouseButton> buttons;
     std::set<Key> keys;
-    struct Pressed {
-      Key key;
-      bool control; // as it was then: it may be released in the same frame
-    };
-    std::vector<Pressed> pressed; // not meant for a text field
+    std::vector<KeyPress> pressed; // not meant for a text field
   } taken_;
   std::set<Key> held_;  // keys that fly
   bool typing_ = false; // a text field has the keyboard
-  bool looking_ = false;
+  Gesture gesture_ = Gesture::none;
+  int gesture_button_ = 0;
+  vec3 gesture_pivot_{0};
   vec2 press_position_{0}, drag_position_{0};
   bool dragged_ = false;
+  double wheel_until_ = 0; // turns of the wheel before this are one edit
+
+  EditHistory history_;
+  std::shared_ptr<OpenScene> scene_; // the state has a copy of what panels look at
+  bool shown_paused_ = false;
 
   ivec2 framebuffer_{1280, 720};
   float content_scale_ = 1;

@@ -1,8 +1,7 @@
-// Events to Dear ImGui, to the shortcuts, to flight and to the picture.
+// Events to Dear ImGui and to flight; the shortcuts and the mouse on the picture have files of their own.
 
 #include "app/viewer.h"
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -12,14 +11,10 @@ namespace candela {
 namespace {
 
 constexpr float kFastFactor = 4;
-constexpr float kSpeedStep = 1.2f; // a notch of the wheel
-constexpr float kMinSpeed = 0.01f, kMaxSpeed = 100;
-constexpr float kTextZoomStep = 1.125f;
 /// A turning key takes this many seconds for an angle of the field of view.
 constexpr float kTurnSeconds = 1.0f;
 constexpr double kFirstFlightStep = 1 / 60.0; // the time before a key went down is not flown
 constexpr double kLongestFlightStep = 0.1;    // after a stall the camera must not be elsewhere
-constexpr float kClickSlack = 4;              // pixels at scale 1 that a click may move
 
 template <class... Functions>
 struct Overloaded : Functions... {
@@ -128,6 +123,7 @@ void Viewer::apply(const Event& event) {
                  [&](const FilesDropped& e) {
                    if (!e.paths.empty()) state_.open_path = e.paths.front();
                  },
+                 [&](const CloseRequested&) { wants_close_ = true; },
                  [&](const FocusLost&) {
                    std::ranges::fill(io.KeysDown, false);
                    std::ranges::fill(io.MouseDown, false);
@@ -153,31 +149,8 @@ void Viewer::apply_key(const KeyChanged& change) {
     return;
   }
   if (typing_) return;
-  taken_.pressed.push_back({change.key, io.KeyCtrl});
+  taken_.pressed.push_back({change.key, io.KeyCtrl, io.KeyShift});
   if (flies(change.key) && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper) held_.insert(change.key);
-}
-
-void Viewer::run_shortcuts() {
-  for (auto [key, control] : taken_.pressed) {
-    if (control) {
-      if (key == Key::q) wants_close_ = true;
-      if (key == Key::s) state_.save_requested = true;
-      if (key == Key::equal) text_zoom_ = std::min(text_zoom_ * kTextZoomStep, 2.5f);
-      if (key == Key::minus) text_zoom_ = std::max(text_zoom_ / kTextZoomStep, 0.6f);
-      if (key == Key::digit_0) text_zoom_ = 1;
-      continue;
-    }
-    if (key == Key::tab) state_.panels_visible = !state_.panels_visible;
-    if (key == Key::f1) state_.help_visible = !state_.help_visible;
-    if (key == Key::p) state_.save_requested = true;
-    if (key == Key::home) state_.reset_view_requested = true;
-    if (key == Key::escape) {
-      if (state_.help_visible)
-        state_.help_visible = false;
-      else
-        state_.error.clear();
-    }
-  }
 }
 
 FlyCommand Viewer::fly_command() const {
@@ -195,7 +168,7 @@ FlyCommand Viewer::fly_command() const {
 }
 
 void Viewer::fly() {
-  Camera& camera = state_.document.scene.camera;
+  const Camera& camera = state_.document.scene.camera;
   const FlyCommand command = fly_command();
   if (!command.any() || !camera_problem(camera).empty()) {
     last_fly_ = -1;
@@ -206,66 +179,9 @@ void Viewer::fly() {
   const float fast = ImGui::GetIO().KeyShift ? kFastFactor : 1;
   const float distance = fast * state_.natural_speed * state_.speed_factor * static_cast<float>(dt);
   const float angle = fast * camera.vertical_fov / kTurnSeconds * static_cast<float>(dt);
-  const Camera before = camera;
-  camera = moved_camera(camera, distance * command.move);
-  if (command.turn != vec2(0)) camera = turned_camera(camera, angle * command.turn.x, angle * command.turn.y);
-  state_.edited |= camera != before;
-}
-
-void Viewer::use_mouse_on_picture() {
-  ImGuiIO& io = ImGui::GetIO();
-  if (!io.WantCaptureMouse && io.MouseWheel != 0) {
-    state_.speed_factor =
-        std::clamp(state_.speed_factor * std::pow(kSpeedStep, io.MouseWheel), kMinSpeed, kMaxSpeed);
-    notify(fmt::format("Speed of flight: {:.2f} x", state_.speed_factor));
-  }
-  const vec2 mouse(io.MousePos.x, io.MousePos.y);
-  if (io.MouseClicked[0] && !io.WantCaptureMouse) {
-    looking_ = true;
-    dragged_ = false;
-    press_position_ = drag_position_ = mouse;
-  }
-  if (!looking_) return;
-  if (glm::length(mouse - press_position_) > kClickSlack * state_.scale) dragged_ = true;
-  Camera& camera = state_.document.scene.camera;
-  if (dragged_ && mouse != drag_position_ && camera_problem(camera).empty()) {
-    const float step = radians_per_pixel(camera, picture_rect().height);
-    const vec2 turn = step * (mouse - drag_position_);
-    const Camera before = camera;
-    camera = turned_camera(camera, -turn.x, -turn.y);
-    state_.edited |= camera != before;
-    drag_position_ = mouse;
-  }
-  if (io.MouseDown[0]) return;
-  looking_ = false;
-  if (!dragged_) focus_at(mouse);
-}
-
-void Viewer::focus_at(vec2 screen_position) {
-  if (!state_.picture) return;
-  const PixelRect rect = picture_rect();
-  const vec2 film(state_.picture->width, state_.picture->height);
-  const vec2 inside = (screen_position + 0.5f - vec2(rect.x, rect.y)) / vec2(rect.width, rect.height);
-  if (inside.x < 0 || inside.y < 0 || inside.x >= 1 || inside.y >= 1) return; // on the frame around it
-  const std::optional<Pick> found = session_->pick(inside * film);
-  if (!found || !(found->view_depth > 0)) {
-    notify("There is nothing to focus on there");
-    return;
-  }
-  const auto& materials = state_.document.scene.materials;
-  std::string on;
-  if (found->material >= 0 && static_cast<std::size_t>(found->material) < materials.size()) {
-    state_.selected_material = found->material;
-    const std::string& name = materials[static_cast<std::size_t>(found->material)].name;
-    if (!name.empty()) on = fmt::format(" on {}", name);
-  }
-  Camera& camera = state_.document.scene.camera;
-  state_.edited |= camera.focus_distance != found->view_depth;
-  camera.focus_distance = found->view_depth;
-  notify(fmt::format("Focus at {:.4g} scene units{}{}", found->view_depth, on,
-                     camera.aperture_radius > 0 ? ""
-                                                : "; a pinhole shows everything sharp: raise Camera, "
-                                                  "aperture radius"));
+  Camera moved = moved_camera(camera, distance * command.move);
+  if (command.turn != vec2(0)) moved = turned_camera(moved, angle * command.turn.x, angle * command.turn.y);
+  set_camera(moved);
 }
 
 } // namespace candela

@@ -1,6 +1,7 @@
 #pragma once
 // What the panels look at and change. They only ask (open this, save that); the Viewer does.
 
+#include "app/orbit_camera.h"
 #include "core/bounds.h"
 #include "session/render_session.h"
 
@@ -42,11 +43,21 @@ struct ViewerState {
   int selected_material = 0;
   int selected_light = 0; ///< lights first, then emissive materials
 
+  bool paused = false;   ///< the user's wish; `status` tells what is
+  std::string undo_name; ///< of the edit that would be undone; empty: none
+  std::string redo_name;
+
   // Requests to the Viewer.
   std::optional<std::string> open_path;
   bool save_requested = false;
   bool reset_view_requested = false;
   bool refresh_scenes_requested = false;
+  bool undo_requested = false;
+  bool redo_requested = false;
+  bool step_requested = false;
+  std::optional<AxisView> axis_view_requested;
+  bool projection_requested = false; ///< perspective or orthographic, whichever it is not
+  bool frame_requested = false;      ///< the selection, or the scene, into the picture
 };
 
 /// Name of the scene's file without its folder, or "Cornell box" for the built-in one.

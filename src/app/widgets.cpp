@@ -62,7 +62,7 @@ void Ui::record(std::string name) {
 }
 
 void Ui::tooltip(std::string_view text) {
-  if (text.empty() || !ImGui::IsItemHovered()) return;
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(360 * scale_);
   ImGui::TextUnformatted(text.data(), text.data() + text.size());

@@ -39,22 +39,18 @@ public:
   Glfw& operator=(const Glfw&) = delete;
 };
 
+/// The n-th key after `first`: letters and digits come in their order in both enumerations.
+Key key_after(Key first, int n) { return static_cast<Key>(static_cast<int>(first) + n); }
+
 Key key_of(int glfw_key) {
+  if (glfw_key >= GLFW_KEY_A && glfw_key <= GLFW_KEY_Z) return key_after(Key::a, glfw_key - GLFW_KEY_A);
+  if (glfw_key >= GLFW_KEY_0 && glfw_key <= GLFW_KEY_9) return key_after(Key::digit_0, glfw_key - GLFW_KEY_0);
+  if (glfw_key >= GLFW_KEY_KP_0 && glfw_key <= GLFW_KEY_KP_9)
+    return key_after(Key::keypad_0, glfw_key - GLFW_KEY_KP_0);
   constexpr std::pair<int, Key> kKeys[] = {
-      {GLFW_KEY_A, Key::a},
-      {GLFW_KEY_C, Key::c},
-      {GLFW_KEY_D, Key::d},
-      {GLFW_KEY_E, Key::e},
-      {GLFW_KEY_P, Key::p},
-      {GLFW_KEY_Q, Key::q},
-      {GLFW_KEY_S, Key::s},
-      {GLFW_KEY_V, Key::v},
-      {GLFW_KEY_W, Key::w},
-      {GLFW_KEY_X, Key::x},
-      {GLFW_KEY_Y, Key::y},
-      {GLFW_KEY_Z, Key::z},
-      {GLFW_KEY_0, Key::digit_0},
-      {GLFW_KEY_KP_0, Key::digit_0},
+      {GLFW_KEY_PERIOD, Key::period},
+      {GLFW_KEY_KP_DECIMAL, Key::keypad_period},
+      {GLFW_KEY_PAUSE, Key::pause},
       {GLFW_KEY_MINUS, Key::minus},
       {GLFW_KEY_KP_SUBTRACT, Key::minus},
       {GLFW_KEY_EQUAL, Key::equal},
@@ -212,6 +208,10 @@ void Window::connect() {
                       [](GLFWwindow* w, unsigned codepoint) { of(w).viewer_->handle(TextTyped{codepoint}); });
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { of(w).send_size(); });
   glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { of(w).send_size(); });
+  glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) {
+    glfwSetWindowShouldClose(w, GLFW_FALSE); // the viewer may have something to ask before
+    of(w).viewer_->handle(CloseRequested{});
+  });
   glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
     of(w).viewer_->handle(FilesDropped{{paths, paths + count}});
   });
@@ -238,7 +238,7 @@ void Window::connect() {
 
 void Window::run() {
   double last = -1;
-  while (glfwWindowShouldClose(window_) == GLFW_FALSE && !viewer_->wants_close()) {
+  while (!viewer_->wants_close()) {
     glfwPollEvents();
     double now = glfwGetTime();
     const double due = last + (viewer_->has_pending_events() ? kInputInterval : kPictureInterval);

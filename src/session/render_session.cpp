@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "render/render_pass.h"
+#include "session/sample_schedule.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -55,6 +56,11 @@ struct RenderSession::State {
   Invalidates pending_worst = Invalidates::nothing; ///< over all that pending replaced
   Document newest;                                  ///< last submitted
   Clock::time_point submitted_at;                   ///< of the last one that restarts
+  BuildQuality quality = BuildQuality::high;        ///< of the newest
+  bool paused = false;
+  int steps_wanted = 0;
+  CropWindow region;
+  bool region_changed = false;
 
   // What is shown.
   SessionStatus status;
@@ -74,9 +80,11 @@ struct RenderSession::State {
   NonFiniteLog nonfinite;
   double render_seconds = 0;
   std::size_t level = 0; ///< next of kCoarseLevels
-  int spp = 0;
-  int published_spp = -1; ///< of the last snapshot
-  double seconds_per_spp = 0;
+  SampleSchedule schedule;
+  int spp = 0;                             ///< complete passes over the film, or over the region
+  BuildQuality built = BuildQuality::high; ///< of the scene's geometry
+  int published_spp = -1;                  ///< of the last snapshot
+  double seconds_per_sample = 0;           ///< of one pixel
   double publish_cost = 0;
   Clock::time_point published_at;
 
@@ -85,7 +93,12 @@ struct RenderSession::State {
   void render_loop();
   bool take_pending();
   void restart();
+  void apply_region();
   bool finished() const;
+  /// Paused, only steps are taken, and the first pass of an edit. The mutex must be held.
+  bool may_go_on() const { return !paused || steps_wanted > 0 || spp == 0; }
+  bool goes_on() const;
+  bool take_step();
   void step();
   void publish(bool force);
   void present_loop();
@@ -99,24 +112,25 @@ void RenderSession::State::render_loop() {
   while (true) {
     {
       std::unique_lock lock(mutex);
-      changed.wait(lock, [&] { return quit || pending || active; });
+      changed.wait(lock, [&] { return quit || pending || region_changed || (active && may_go_on()); });
       if (quit) return;
     }
+    const SessionPhase before = status.phase;
     try {
-      if (take_pending()) active = true;
-      if (status.phase == SessionPhase::failed) {
+      take_pending();
+      apply_region();
+      if (status.phase == SessionPhase::failed || scene == nullptr) {
         active = false;
         continue;
       }
-      if (!finished()) step();
-      if (finished()) {
-        if (published_spp != spp) publish(true);
-        std::lock_guard lock(mutex);
-        if (!pending) {
-          status.phase = SessionPhase::finished;
-          active = false;
-        }
-      }
+      if (!finished() && goes_on()) step();
+      active = !finished();
+      if ((!active || !goes_on()) && published_spp != spp) publish(true);
+      std::lock_guard lock(mutex);
+      if (active)
+        status.phase = may_go_on() ? SessionPhase::rendering : SessionPhase::paused;
+      else if (!pending)
+        status.phase = SessionPhase::finished;
     } catch (const Error& e) {
       std::lock_guard lock(mutex);
       status.phase = SessionPhase::failed;
@@ -129,7 +143,8 @@ void RenderSession::State::render_loop() {
       active = false;
     }
     changed.notify_all();
-    if (!active && options.on_publish) options.on_publish(); // the phase is news, too
+    const bool settled = !active || (status.phase == SessionPhase::paused && status.phase != before);
+    if (settled && options.on_publish) options.on_publish(); // the phase is news, too
   }
 }
 
@@ -165,12 +180,46 @@ bool RenderSession::State::take_pending() {
   return true;
 }
 
-void RenderSession::State::restart() {
-  // Materials and lights are made anew, which is quick; the geometry stays where the instances stay.
-  auto built = RenderScene::build(current, scene.get());
+bool RenderSession::State::goes_on() const {
+  std::lock_guard lock(mutex);
+  return may_go_on();
+}
+
+/// Whether this pass is one that step() asked for.
+bool RenderSession::State::take_step() {
+  std::lock_guard lock(mutex);
+  if (steps_wanted == 0) return false;
+  --steps_wanted;
+  status.phase = SessionPhase::rendering;
+  return true;
+}
+
+void RenderSession::State::apply_region() {
+  CropWindow wanted;
   {
     std::lock_guard lock(mutex);
-    scene = std::move(built);
+    if (!region_changed) return;
+    region_changed = false;
+    wanted = region;
+    if (scene && status.phase != SessionPhase::failed) status.phase = SessionPhase::rendering;
+  }
+  schedule.set_region(wanted);
+  if (spp > 0) spp = static_cast<int>(schedule.samples());
+}
+
+void RenderSession::State::restart() {
+  // Materials and lights are made anew, which is quick; the geometry stays where the instances stay.
+  BuildQuality wanted;
+  {
+    std::lock_guard lock(mutex);
+    wanted = quality;
+  }
+  const bool too_coarse = built == BuildQuality::fast && wanted == BuildQuality::high;
+  auto made = RenderScene::build(current, too_coarse ? nullptr : scene.get(), wanted);
+  if (scene == nullptr || &made->geometry() != &scene->geometry()) built = wanted;
+  {
+    std::lock_guard lock(mutex);
+    scene = std::move(made);
     scene_document = std::make_shared<const Document>(current);
     status.phase = SessionPhase::rendering;
   }
@@ -181,8 +230,9 @@ void RenderSession::State::restart() {
   render_seconds = 0;
   level = 0;
   spp = 0;
+  schedule.reset(size.width, size.height, 1); // the first pass is everywhere
   published_spp = -1;
-  seconds_per_spp = 0;
+  seconds_per_sample = 0;
 }
 
 bool RenderSession::State::finished() const {
@@ -197,16 +247,23 @@ void RenderSession::State::step() {
   PassOptions pass_options;
   pass_options.threads = options.threads;
   SampleRange range;
+  SampleSchedule::Job job;
   bool coarse = level < std::size(kCoarseLevels);
   if (coarse) {
     range.lattice = kCoarseLevels[level];
     range.skip_lattice = level > 0 ? kCoarseLevels[level - 1] : 0;
   } else {
     // Enough samples a pass to be worth its synchronisation, few enough to publish often.
-    int portion = seconds_per_spp > 0 ? std::clamp(static_cast<int>(0.02 / seconds_per_spp), 1, 64) : 1;
+    job = schedule.next(1);
+    const double pixels = static_cast<double>(job.window.width) * job.window.height;
+    int portion = 1;
+    if (!take_step() && seconds_per_sample > 0)
+      portion = static_cast<int>(std::clamp(0.02 / (seconds_per_sample * pixels), 1.0, 64.0));
     if (current.settings.stop.spp > 0) portion = std::min(portion, current.settings.stop.spp - spp);
-    range.begin = static_cast<std::uint32_t>(spp);
-    range.end = static_cast<std::uint32_t>(spp + portion);
+    job = schedule.next(static_cast<std::uint32_t>(portion));
+    range.begin = job.begin;
+    range.end = job.end;
+    pass_options.crop = job.window;
   }
   auto start = Clock::now();
   // The coarsest image is always finished: while an edit is dragged there is a picture of every moment.
@@ -223,9 +280,10 @@ void RenderSession::State::step() {
     if (level == std::size(kCoarseLevels)) spp = 1;
     publish(true);
   } else {
-    auto done = static_cast<int>(range.end - range.begin);
-    spp += done;
-    seconds_per_spp = taken / done;
+    seconds_per_sample =
+        taken / (static_cast<double>(job.end - job.begin) * job.window.width * job.window.height);
+    schedule.done(job);
+    spp = static_cast<int>(schedule.samples());
     publish(false);
   }
 }
@@ -305,13 +363,15 @@ void RenderSession::State::present_loop() {
 RenderSession::RenderSession(SessionOptions options) : state_(std::make_unique<State>(std::move(options))) {}
 RenderSession::~RenderSession() = default;
 
-std::uint64_t RenderSession::submit(Document document) {
+std::uint64_t RenderSession::submit(Document document, BuildQuality quality) {
   State& s = *state_;
   std::uint64_t generation;
   {
     std::lock_guard lock(s.mutex);
     Invalidates consequence =
         s.status.submitted == 0 ? Invalidates::scene : compare_documents(s.newest, document);
+    if (s.quality == BuildQuality::fast && quality == BuildQuality::high) consequence = Invalidates::scene;
+    s.quality = quality;
     s.newest = document;
     s.pending = std::move(document);
     s.pending_worst = std::max(s.pending_worst, consequence);
@@ -323,6 +383,36 @@ std::uint64_t RenderSession::submit(Document document) {
   }
   s.changed.notify_all();
   return generation;
+}
+
+void RenderSession::pause(bool paused) {
+  State& s = *state_;
+  {
+    std::lock_guard lock(s.mutex);
+    s.paused = paused;
+    s.steps_wanted = 0;
+  }
+  s.changed.notify_all();
+}
+
+void RenderSession::step() {
+  State& s = *state_;
+  {
+    std::lock_guard lock(s.mutex);
+    s.paused = true;
+    ++s.steps_wanted;
+  }
+  s.changed.notify_all();
+}
+
+void RenderSession::set_region(const CropWindow& region) {
+  State& s = *state_;
+  {
+    std::lock_guard lock(s.mutex);
+    s.region = region;
+    s.region_changed = true;
+  }
+  s.changed.notify_all();
 }
 
 std::shared_ptr<const Frame> RenderSession::latest() const {
@@ -357,7 +447,9 @@ bool RenderSession::wait_finished(double seconds) const {
   return s.changed.wait_for(lock, std::chrono::duration<double>(seconds), [&] {
     if (s.status.generation != s.status.submitted || s.pending) return false;
     if (s.status.phase == SessionPhase::failed) return true;
-    return s.status.phase == SessionPhase::finished && s.picture && s.picture->frame == s.frame &&
+    if (s.region_changed || (s.paused && s.steps_wanted > 0)) return false;
+    const bool still = s.status.phase == SessionPhase::finished || (s.status.phase == SessionPhase::paused && s.paused);
+    return still && s.picture && s.picture->frame == s.frame &&
            s.picture->display == s.newest.settings.display;
   });
 }

@@ -5,6 +5,8 @@
 #include "render/display_transform.h"
 #include "render/frame.h"
 #include "render/picking.h"
+#include "render/render_pass.h"
+#include "render/render_scene.h"
 
 #include <functional>
 #include <memory>
@@ -13,7 +15,7 @@
 
 namespace candela {
 
-enum class SessionPhase { idle, building, rendering, finished, failed };
+enum class SessionPhase { idle, building, rendering, paused, finished, failed };
 
 struct SessionStatus {
   SessionPhase phase = SessionPhase::idle;
@@ -54,8 +56,18 @@ public:
   RenderSession& operator=(const RenderSession&) = delete;
 
   /// Hands in a new Document (latest wins) and returns its generation. What it restarts is decided by
-  /// compare_documents(): a display-only change re-tones the newest frame and keeps accumulating.
-  std::uint64_t submit(Document document);
+  /// compare_documents(): a display-only change re-tones the newest frame and keeps accumulating. While
+  /// objects are being dragged their geometry may be built fast; the first submit() of high quality after
+  /// that builds it again.
+  std::uint64_t submit(Document document, BuildQuality quality = BuildQuality::high);
+
+  /// While paused nothing accumulates; edits still show their first pass. The pass in flight is finished.
+  void pause(bool paused);
+  /// One sample for every pixel that accumulates, then a pause.
+  void step();
+  /// Only these pixels of the film accumulate, without a restart; the rest keeps what it has and catches up
+  /// when an empty window gives the whole film back. After a restart the first pass is everywhere.
+  void set_region(const CropWindow& region);
 
   std::shared_ptr<const Frame> latest() const;         ///< null before the first image
   std::shared_ptr<const DisplayImage> display() const; ///< null before the first image
@@ -65,8 +77,8 @@ public:
   /// builds.
   std::optional<Pick> pick(vec2 film_position) const;
 
-  /// For tests and screenshots: waits until the newest Document is finished (or failed) and its picture is
-  /// shown; false after `seconds`. Never called by the UI thread.
+  /// For tests and screenshots: waits until the newest Document is finished (or failed, or paused with every
+  /// step taken) and its picture is shown; false after `seconds`. Never called by the UI thread.
   bool wait_finished(double seconds) const;
 
 private:

@@ -269,6 +269,8 @@ public:
     unfold("group.stop", "stop.spp");
     unfold("group.film", "film.width");
     unfold("group.override", "override.brdf");
+    unfold("group.ao", "ao.distance");
+    unfold("group.adaptive", "adaptive.error");
     unfold("panel.materials", "material.type");
     if (!find("light.type") && !find("emitter.emission.r")) click("panel.lights");
     unfold("panel.scenes", "scene.path");

@@ -47,7 +47,8 @@ TEST(SettingsCommand, JsonTellsTypesAndBounds) {
   EXPECT_EQ(row("camera.vertical_fov")["unit"], "degrees");
   EXPECT_EQ(row("camera.vertical_fov")["default"], 45);
   EXPECT_TRUE(row("camera.position")["maximum"].is_null());
-  EXPECT_EQ(row("display.tone_map")["choices"], json({"reinhard", "reinhard_simple", "filmic", "aces", "srgb"}));
+  EXPECT_EQ(row("display.tone_map")["choices"],
+            json({"reinhard", "reinhard_simple", "filmic", "aces", "srgb"}));
   EXPECT_EQ(row("display.tone_map")["restarts"], "the display");
 }
 

@@ -82,9 +82,9 @@ TEST(ViewerFlightUi, ShiftIsFourTimesAsFast) {
   EXPECT_NEAR(glm::length(after(hand, Key::s).position - there), 4 * one, 1e-3f * one);
 }
 
-TEST(ViewerFlightUi, TheWheelChangesTheSpeed) {
+TEST(ViewerFlightUi, TheWheelChangesTheSpeedOfAFlight) {
   ViewerHarness hand;
-  const std::uint64_t restarts = hand.viewer.session().status().restarts;
+  hand.key_down(Key::a);
   hand.scroll({400, 300}, 1);
   EXPECT_NEAR(hand.state().speed_factor, 1.2f, 1e-6f);
   hand.scroll({400, 300}, -2);
@@ -92,8 +92,6 @@ TEST(ViewerFlightUi, TheWheelChangesTheSpeed) {
   EXPECT_NE(hand.state().notice, "");
   for (int i = 0; i < 100; ++i) hand.send(MouseScrolled{{0, -5}});
   EXPECT_GT(hand.state().speed_factor, 0.0f) << "it never stands still";
-  hand.wait_for_picture();
-  EXPECT_LE(hand.viewer.session().status().restarts, std::max<std::uint64_t>(restarts, 1));
   const float speed = hand.state().speed_factor;
   hand.scroll(hand.reveal("panel.render"), 1);
   EXPECT_EQ(hand.state().speed_factor, speed) << "over the panels the wheel scrolls";

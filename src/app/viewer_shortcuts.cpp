@@ -1,0 +1,71 @@
+// What the keys do, but for flight.
+
+#include "app/viewer.h"
+
+namespace candela {
+
+namespace {
+
+constexpr float kTextZoomStep = 1.125f;
+constexpr float kMinTextZoom = 0.6f, kMaxTextZoom = 2.5f;
+
+/// The views of the number pad, as in Blender; Ctrl looks from the other side.
+std::optional<AxisView> axis_view(Key key, bool control) {
+  switch (key) {
+  case Key::keypad_1: return control ? AxisView::back : AxisView::front;
+  case Key::keypad_3: return control ? AxisView::left : AxisView::right;
+  case Key::keypad_7: return control ? AxisView::bottom : AxisView::top;
+  default: return std::nullopt;
+  }
+}
+
+} // namespace
+
+void Viewer::run_shortcuts() {
+  for (const KeyPress& press : taken_.pressed) {
+    if (const auto view = axis_view(press.key, press.control))
+      state_.axis_view_requested = view;
+    else if (press.control)
+      run_control_shortcut(press);
+    else
+      run_plain_shortcut(press.key);
+  }
+}
+
+void Viewer::run_control_shortcut(const KeyPress& press) {
+  switch (press.key) {
+  case Key::q: wants_close_ = true; break;
+  case Key::s: state_.save_requested = true; break;
+  case Key::z: (press.shift ? state_.redo_requested : state_.undo_requested) = true; break;
+  case Key::y: state_.redo_requested = true; break;
+  case Key::equal: text_zoom_ = std::min(text_zoom_ * kTextZoomStep, kMaxTextZoom); break;
+  case Key::minus: text_zoom_ = std::max(text_zoom_ / kTextZoomStep, kMinTextZoom); break;
+  case Key::digit_0:
+  case Key::keypad_0: text_zoom_ = 1; break;
+  default: break;
+  }
+}
+
+void Viewer::run_plain_shortcut(Key key) {
+  switch (key) {
+  case Key::tab: state_.panels_visible = !state_.panels_visible; break;
+  case Key::f1: state_.help_visible = !state_.help_visible; break;
+  case Key::p: state_.save_requested = true; break;
+  case Key::home: state_.reset_view_requested = true; break;
+  case Key::keypad_5: state_.projection_requested = true; break;
+  case Key::period:
+  case Key::keypad_period: state_.frame_requested = true; break;
+  case Key::k:
+  case Key::pause: state_.paused = !state_.paused; break;
+  case Key::l: state_.step_requested = true; break;
+  case Key::escape:
+    if (state_.help_visible)
+      state_.help_visible = false;
+    else
+      state_.error.clear();
+    break;
+  default: break;
+  }
+}
+
+} // namespace candela

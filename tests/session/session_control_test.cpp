@@ -1,0 +1,132 @@
+// Pause, step, region, build quality: what the user holds back or asks for, and that no sample is lost by it.
+
+#include "session/offline_render.h"
+#include "session/render_session.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace candela {
+namespace {
+
+constexpr double kPatience = 120; // seconds before a wait counts as hanging
+
+Document cornell(int spp) { return test::cornell_flush(61, 43, spp, true).document; }
+
+std::vector<vec3> headless(const Document& document) { return render_document(document).film.image().pixels; }
+
+TEST(SessionControl, APauseKeepsThePassesItHasAndResumesToTheSameBits) {
+  RenderSession session;
+  Document d = cornell(0); // never finished by itself
+  session.submit(d);
+  session.pause(true);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.status().phase, SessionPhase::paused);
+  const auto frame = session.latest();
+  EXPECT_GE(frame->spp, 1) << "the first pass is shown";
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(session.latest(), frame) << "nothing accumulates";
+
+  d.settings.stop.spp = frame->spp + 5;
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.latest()->spp, frame->spp) << "a later stop does not end the pause";
+  session.pause(false);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.status().phase, SessionPhase::finished);
+  EXPECT_EQ(session.status().restarts, 1u);
+  EXPECT_TRUE(session.latest()->linear == headless(d));
+}
+
+TEST(SessionControl, AnEditWhilePausedShowsItsFirstPass) {
+  RenderSession session;
+  session.pause(true);
+  Document d = cornell(0);
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  for (int i = 1; i <= 3; ++i) {
+    d.scene.camera.position.x += 3;
+    const std::uint64_t generation = session.submit(d);
+    ASSERT_TRUE(session.wait_finished(kPatience));
+    EXPECT_EQ(session.display()->frame->generation, generation);
+    EXPECT_EQ(session.latest()->spp, 1);
+    EXPECT_EQ(session.latest()->coarseness, 1);
+  }
+}
+
+TEST(SessionControl, AStepIsOneSampleAPixel) {
+  RenderSession session;
+  session.pause(true);
+  Document d = cornell(0);
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  for (int spp = 2; spp <= 6; ++spp) {
+    session.step();
+    ASSERT_TRUE(session.wait_finished(kPatience));
+    EXPECT_EQ(session.latest()->spp, spp);
+    d.settings.stop.spp = spp;
+    EXPECT_TRUE(session.latest()->linear == headless(d));
+  }
+}
+
+TEST(SessionControl, ARegionAccumulatesAloneAndTheRestCatchesUp) {
+  RenderSession session;
+  session.pause(true);
+  Document d = cornell(9);
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  const auto first = session.latest();
+  const CropWindow region{10, 7, 20, 11};
+  session.set_region(region);
+  session.pause(false);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  const std::vector<vec3> whole = headless(d);
+  const auto frame = session.latest();
+  EXPECT_EQ(frame->spp, 9);
+  for (int y = 0; y < 43; ++y)
+    for (int x = 0; x < 61; ++x) {
+      const bool inside = x >= 10 && x < 30 && y >= 7 && y < 18;
+      const auto i = static_cast<std::size_t>(y * 61 + x);
+      ASSERT_EQ(frame->linear[i], (inside ? whole : first->linear)[i]) << x << ' ' << y;
+    }
+  session.set_region({});
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_TRUE(session.latest()->linear == whole);
+  EXPECT_EQ(session.status().restarts, 1u);
+}
+
+TEST(SessionControl, ARegionBeforeTheFirstDocumentWaitsForIt) {
+  RenderSession session;
+  session.set_region({1, 1, 5, 5});
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_EQ(session.status().phase, SessionPhase::idle);
+  Document d = cornell(2);
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.latest()->spp, 2);
+}
+
+TEST(SessionControl, FastGeometryIsBuiltAgainWellOnce) {
+  RenderSession session;
+  Document d = cornell(2);
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  d.scene.instances.back().world_from_object[3].x += 20;
+  session.submit(d, BuildQuality::fast);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.status().restarts, 2u);
+  EXPECT_TRUE(session.latest()->linear == headless(d)) << "the tree's quality is no part of the image";
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.status().restarts, 3u);
+  EXPECT_TRUE(session.latest()->linear == headless(d));
+  session.submit(d);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.status().restarts, 3u);
+}
+
+} // namespace
+} // namespace candela
