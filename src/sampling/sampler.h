@@ -6,6 +6,7 @@
 #include "core/hash.h"
 #include "core/math.h"
 #include "sampling/sampler_type.h"
+#include "sampling/sequences.h"
 
 #include <array>
 #include <bit>
@@ -24,39 +25,6 @@ enum class Dimension : std::uint32_t {
   opacity,          ///< whether light meets a partly transparent surface
   count
 };
-
-/// Elementary intervals of base 2 stay intact: bit k of the result depends on bits 0..k of x only, and flips
-/// at random with them. Between two bit reversals this is Owen's nested uniform scrambling (Laine & Karras
-/// 2011, "Stratified Sampling for Stochastic Transparency"; constants by Vegdahl 2021, "Building a Better LK
-/// Hash").
-constexpr std::uint32_t laine_karras(std::uint32_t x, std::uint32_t seed) {
-  x ^= x * 0x3d20adeau;
-  x += seed;
-  x *= (seed >> 16) | 1;
-  x ^= x * 0x05526c56u;
-  x ^= x * 0x53a22864u;
-  return x;
-}
-
-constexpr std::uint32_t reverse_bits(std::uint32_t x) {
-  x = __builtin_bswap32(x);
-  x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
-  x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
-  x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
-  return x;
-}
-
-/// The second Sobol' dimension with its bits reversed (the first one is `index` itself). Its generator matrix
-/// is Pascal's triangle mod 2, and by Lucas' theorem C(k, j) is odd exactly where the bits of j are a subset
-/// of k's: a sum over supersets of bit positions, which factors into five butterfly steps.
-constexpr std::uint32_t sobol_second_reversed(std::uint32_t index) {
-  index ^= (index >> 1) & 0x55555555u;
-  index ^= (index >> 2) & 0x33333333u;
-  index ^= (index >> 4) & 0x0f0f0f0fu;
-  index ^= (index >> 8) & 0x00ff00ffu;
-  index ^= index >> 16;
-  return index;
-}
 
 /// Position of `index` in a pseudo-random permutation of 0..length-1 that `key` chooses; index < length.
 /// Cycle walking over an invertible hash of the next power of two (Kensler 2013, "Correlated Multi-Jittered
@@ -80,39 +48,28 @@ constexpr std::uint32_t permute(std::uint32_t index, std::uint32_t length, std::
   return index;
 }
 
-/// The Owen-scrambled (0, 2)-sequence that `key` and `dimension` choose, at a sample number whose bits are
-/// reversed. 32-bit operations only, which every vector unit has.
-inline vec2 sobol_point(std::uint64_t key, std::uint32_t reversed_sample, std::uint32_t dimension) {
-  std::uint32_t shuffle_seed = hash32(static_cast<std::uint32_t>(key) + dimension * 0x9e3779b9u);
-  std::uint32_t x_seed = hash32(shuffle_seed ^ static_cast<std::uint32_t>(key >> 32));
-  std::uint32_t y_seed = (x_seed ^ (x_seed >> 15)) * 0x2c1b3c6du;
-  y_seed ^= y_seed >> 13;
-  // The nested uniform shuffle of the sample number: aligned runs of 2^m stay together, but which of two
-  // halves comes first is random, so that dimensions padded beside each other are not correlated.
-  std::uint32_t i = reverse_bits(laine_karras(reversed_sample, shuffle_seed));
-  // Scrambling works on reversed bits, and the first Sobol' dimension is the reversed index.
-  std::uint32_t x = reverse_bits(laine_karras(i, x_seed));
-  std::uint32_t y = reverse_bits(laine_karras(sobol_second_reversed(i), y_seed));
-  return {to_unit_float(x), to_unit_float(y)};
-}
-
-/// Every value is in [0, 1). Pixels, bounces, dimensions and indices are independent of each other; within
-/// one of them the samples 0, 1, 2, … of a pixel are spread as the type says, and any number of them may be
-/// used.
+/// Every value is in [0, 1). Pixels (but for blue_noise), bounces, dimensions and indices are independent of
+/// each other; within one of them the samples 0, 1, 2, … of a pixel are spread as the type says, and any
+/// number of them may be used. A run is aligned if its first number is a multiple of its length. One
+/// dimension is a point's x.
 ///
 /// stratified: each run of strata^2 samples has one in every cell of a strata x strata grid (of strata^2
 /// intervals in 1-D), jittered and in an order of its own.
 ///
-/// sobol: each aligned run of 2^m samples is a (0, m, 2)-net in base 2 (a (0, m, 1)-net in 1-D): one point in
-/// every elementary interval of size 2^-m (Burley 2020, "Practical Hash-based Owen Scrambling": padded 2-D
-/// sequences with a nested uniform shuffle of the index).
+/// sobol, pmj02, blue_noise: each aligned run of 2^m samples is a (0, m, 2)-net in base 2 (a (0, m, 1)-net in
+/// 1-D): one point in every elementary interval of size 2^-m (Burley 2020, "Practical Hash-based Owen
+/// Scrambling": padded 2-D sequences with a nested uniform shuffle of the index). blue_noise has that along
+/// a curve through neighbouring pixels, too, as blue_noise_point() says.
+///
+/// halton: each aligned run of 6^k samples has one in every box of 2^-k x 3^-k, each of 2 6^k one in every
+/// box of 2^-(k+1) x 3^-k; bases 2 and 3 in every dimension.
+///
+/// lattice: each aligned run of 2^m samples is a randomly moved rank-1 lattice.
 class Sampler {
 public:
   /// `strata` is a side of the stratified sampler's grid, in [1, 65535].
   Sampler(SamplerType type, std::uint64_t seed, int strata = 4)
-      : type_(type == SamplerType::independent || type == SamplerType::stratified ? type
-                                                                                  : SamplerType::sobol),
-        strata_(static_cast<std::uint32_t>(strata)), seed_(hash_combine(0, seed)) {
+      : type_(type), strata_(static_cast<std::uint32_t>(strata)), seed_(hash_combine(0, seed)) {
     start({0, 0}, 0);
   }
 
@@ -120,14 +77,22 @@ public:
   void start(uvec2 pixel, std::uint32_t sample) {
     pixel_key_ = hash_combine(seed_, (static_cast<std::uint64_t>(pixel.y) << 32) | pixel.x);
     sample_ = sample;
-    if (type_ == SamplerType::independent) {
-      pixel_key_ = hash_combine(pixel_key_, sample);
-    } else if (type_ == SamplerType::sobol) {
+    switch (type_) {
+    case SamplerType::independent: pixel_key_ = hash_combine(pixel_key_, sample); break;
+    case SamplerType::stratified:
+      block_ = sample / (strata_ * strata_);
+      sample_in_block_ = sample % (strata_ * strata_);
+      break;
+    case SamplerType::halton: break;
+    case SamplerType::sobol:
+    case SamplerType::pmj02:
+    case SamplerType::lattice: reversed_sample_ = reverse_bits(sample); break;
+    case SamplerType::blue_noise:
       reversed_sample_ = reverse_bits(sample);
-    } else {
-      std::uint32_t cells = strata_ * strata_;
-      block_ = sample / cells;
-      sample_in_block_ = sample % cells;
+      reversed_morton_ = reverse_bits(morton_code(pixel.x, pixel.y));
+      // The squares of 2^16 pixels a side are independent, the pixels in one share their sequences.
+      pixel_key_ = hash_combine(seed_, (static_cast<std::uint64_t>(pixel.y >> 16) << 32) | pixel.x >> 16);
+      break;
     }
     set_bounce(0);
   }
@@ -143,21 +108,26 @@ public:
     if (type_ != SamplerType::stratified) return get_2d(dimension, index).x;
     std::uint32_t cells = strata_ * strata_;
     StratifiedDraw draw = stratified_draw(dimension, index);
-    return in_cell(draw.cell, cells, high(draw.jitter));
+    return in_cell(draw.cell, cells, high_bits(draw.jitter));
   }
 
   vec2 get_2d(Dimension dimension, std::uint32_t index = 0) const {
     switch (type_) {
     case SamplerType::independent: {
       std::uint64_t h = key(dimension, index);
-      return {to_unit_float(high(h)), to_unit_float(low(h))};
+      return {to_unit_float(high_bits(h)), to_unit_float(low_bits(h))};
     }
     case SamplerType::stratified: {
       StratifiedDraw draw = stratified_draw(dimension, index);
-      return {in_cell(draw.cell % strata_, strata_, high(draw.jitter)),
-              in_cell(draw.cell / strata_, strata_, low(draw.jitter))};
+      return {in_cell(draw.cell % strata_, strata_, high_bits(draw.jitter)),
+              in_cell(draw.cell / strata_, strata_, low_bits(draw.jitter))};
     }
-    default: break;
+    case SamplerType::halton: return halton_point(key(dimension, index), sample_);
+    case SamplerType::pmj02: return pmj02_point(key(dimension, index), sample_, reversed_sample_);
+    case SamplerType::lattice: return lattice_point(key(dimension, index), reversed_sample_);
+    case SamplerType::blue_noise:
+      return blue_noise_point(key(dimension, index), reversed_sample_, reversed_morton_);
+    case SamplerType::sobol: break;
     }
     auto d = static_cast<std::uint32_t>(dimension);
     if (index == 0) return {x_[d], y_[d]};
@@ -166,9 +136,6 @@ public:
 
 private:
   static constexpr std::size_t kDimensions = static_cast<std::size_t>(Dimension::count);
-
-  static std::uint32_t high(std::uint64_t h) { return static_cast<std::uint32_t>(h >> 32); }
-  static std::uint32_t low(std::uint64_t h) { return static_cast<std::uint32_t>(h); }
 
   std::uint64_t key(Dimension dimension, std::uint32_t index) const {
     return hash_combine(bounce_key_,
@@ -198,10 +165,11 @@ private:
   SamplerType type_;
   std::uint32_t strata_;
   std::uint32_t sample_ = 0;
-  std::uint32_t reversed_sample_ = 0;             ///< sobol
+  std::uint32_t reversed_sample_ = 0;             ///< of the samplers in base 2
+  std::uint32_t reversed_morton_ = 0;             ///< blue_noise
   std::uint32_t block_ = 0, sample_in_block_ = 0; ///< stratified
   std::uint64_t seed_;
-  std::uint64_t pixel_key_ = 0; ///< has the sample in it if independent
+  std::uint64_t pixel_key_ = 0; ///< has the sample in it if independent, and hardly the pixel if blue_noise
   std::uint64_t bounce_key_ = 0;
   std::array<float, kDimensions> x_{}, y_{}; ///< sobol: the bounce's points of index 0
 };

@@ -35,6 +35,10 @@ void bm_get_2d(benchmark::State& state, SamplerType type) {
 BENCHMARK_CAPTURE(bm_get_2d, independent, SamplerType::independent);
 BENCHMARK_CAPTURE(bm_get_2d, stratified, SamplerType::stratified);
 BENCHMARK_CAPTURE(bm_get_2d, sobol, SamplerType::sobol);
+BENCHMARK_CAPTURE(bm_get_2d, halton, SamplerType::halton);
+BENCHMARK_CAPTURE(bm_get_2d, pmj02, SamplerType::pmj02);
+BENCHMARK_CAPTURE(bm_get_2d, lattice, SamplerType::lattice);
+BENCHMARK_CAPTURE(bm_get_2d, blue_noise, SamplerType::blue_noise);
 
 void bm_get_1d(benchmark::State& state, SamplerType type) {
   Sampler sampler(type, 1, 4);
@@ -54,6 +58,10 @@ void bm_get_1d(benchmark::State& state, SamplerType type) {
 BENCHMARK_CAPTURE(bm_get_1d, independent, SamplerType::independent);
 BENCHMARK_CAPTURE(bm_get_1d, stratified, SamplerType::stratified);
 BENCHMARK_CAPTURE(bm_get_1d, sobol, SamplerType::sobol);
+BENCHMARK_CAPTURE(bm_get_1d, halton, SamplerType::halton);
+BENCHMARK_CAPTURE(bm_get_1d, pmj02, SamplerType::pmj02);
+BENCHMARK_CAPTURE(bm_get_1d, lattice, SamplerType::lattice);
+BENCHMARK_CAPTURE(bm_get_1d, blue_noise, SamplerType::blue_noise);
 
 /// A warp over points of the unit square that are made in advance.
 template <class Warp>
