@@ -24,15 +24,15 @@ double estimate(Sampler& sampler, uvec2 pixel, std::uint32_t samples, F f) {
 
 /// Mean squared error of that over many pixels.
 template <class F>
-double mean_squared_error(SamplerType type, std::uint32_t samples, double exact, F f) {
+double mean_squared_error(SamplerType type, std::uint32_t samples, double exact, F f,
+                          std::uint32_t pixels = 400) {
   Sampler sampler(type, fresh_seed() + 3, 16);
   double sum = 0;
-  constexpr std::uint32_t kPixels = 400;
-  for (std::uint32_t pixel = 0; pixel < kPixels; ++pixel) {
+  for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
     double error = estimate(sampler, independent_pixel(type, pixel, 1), samples, f) - exact;
     sum += error * error;
   }
-  return sum / kPixels;
+  return sum / pixels;
 }
 
 double smooth(const Sampler& s) {
@@ -98,15 +98,16 @@ TEST(SamplerIntegrationStatistical, ALatticeIsBestForPeriodicFunctions) {
 TEST(SamplerIntegrationStatistical, PaddedDimensionsAreNoWorseThanIndependent) {
   SCOPED_TRACE(seed_note());
   // The product's variance is all in the interaction of dimensions that were not made to fit each other: were
-  // they to run through their intervals in the same order, the error would be 64 times as large.
+  // they to run through their intervals in the same order, the error would be 64 times as large. As aligned
+  // runs stay together, digit k of the one and digit k of the other still have twice the variance, of which
+  // they hold 16^-k: in all 1 + (1/15) / (1/9) = 1.6 times as much as independent numbers in base 2.
   for (int a = 0; a < 2; ++a) {
     for (int b = 0; b < 2; ++b) {
       auto product = [=](const Sampler& s) {
         return (double(s.get_2d(Dimension::lens)[a]) - 0.5) * (double(s.get_2d(Dimension::film)[b]) - 0.5);
       };
-      double independent = mean_squared_error(SamplerType::independent, 64, 0, product);
       for (SamplerType type : kSamplerTypes)
-        EXPECT_LT(mean_squared_error(type, 64, 0, product), independent * 2)
+        EXPECT_LT(mean_squared_error(type, 64, 0, product, 4000), 2.0 / (144 * 64))
             << static_cast<int>(type) << ' ' << a << b;
     }
   }
