@@ -58,8 +58,8 @@ constexpr std::uint32_t permute(std::uint32_t index, std::uint32_t length, std::
 ///
 /// sobol, pmj02, blue_noise: each aligned run of 2^m samples is a (0, m, 2)-net in base 2 (a (0, m, 1)-net in
 /// 1-D): one point in every elementary interval of size 2^-m (Burley 2020, "Practical Hash-based Owen
-/// Scrambling": padded 2-D sequences with a nested uniform shuffle of the index). blue_noise has that along
-/// a curve through neighbouring pixels, too, as blue_noise_point() says.
+/// Scrambling": padded 2-D sequences with a nested uniform shuffle of the index). blue_noise has that among
+/// neighbouring pixels, too, as blue_noise_point() says.
 ///
 /// halton: each aligned run of 6^k samples has one in every box of 2^-k x 3^-k, each of 2 6^k one in every
 /// box of 2^-(k+1) x 3^-k; bases 2 and 3 in every dimension.
@@ -89,9 +89,9 @@ public:
     case SamplerType::lattice: reversed_sample_ = reverse_bits(sample); break;
     case SamplerType::blue_noise:
       reversed_sample_ = reverse_bits(sample);
-      reversed_morton_ = reverse_bits(morton_code(pixel.x, pixel.y));
-      // The squares of 2^16 pixels a side are independent, the pixels in one share their sequences.
-      pixel_key_ = hash_combine(seed_, (static_cast<std::uint64_t>(pixel.y >> 16) << 32) | pixel.x >> 16);
+      reversed_morton_ = reverse_bits(morton_code(pixel.x % kBlueNoiseTile, pixel.y % kBlueNoiseTile));
+      pixel_key_ = hash_combine(seed_, (static_cast<std::uint64_t>(pixel.y / kBlueNoiseTile) << 32) |
+                                           pixel.x / kBlueNoiseTile);
       break;
     }
     set_bounce(0);
@@ -169,7 +169,8 @@ private:
   std::uint32_t reversed_morton_ = 0;             ///< blue_noise
   std::uint32_t block_ = 0, sample_in_block_ = 0; ///< stratified
   std::uint64_t seed_;
-  std::uint64_t pixel_key_ = 0; ///< has the sample in it if independent, and hardly the pixel if blue_noise
+  std::uint64_t pixel_key_ =
+      0; ///< has the sample in it if independent, and the tile for the pixel if blue_noise
   std::uint64_t bounce_key_ = 0;
   std::array<float, kDimensions> x_{}, y_{}; ///< sobol: the bounce's points of index 0
 };

@@ -178,20 +178,25 @@ inline vec2 lattice_point(std::uint64_t key, std::uint32_t reversed_sample) {
           to_unit_float(inverse * kLatticeGenerator + high_bits(key))};
 }
 
-/// One sequence for the whole film, so that the errors of neighbouring pixels cancel: what is left of the
+/// Pixels a side of the squares that share their sequences with blue_noise. The mean over a square is far
+/// more exact than a pixel already, so nothing is gained by larger ones; but the squares' errors are
+/// independent, so that no bad luck of one scramble shows on the whole film.
+inline constexpr std::uint32_t kBlueNoiseTile = 16;
+
+/// One sequence for a tile of pixels, so that the errors of neighbouring pixels cancel: what is left of the
 /// error lies at high frequencies, where the eye, a filter or a denoiser loses it. That it takes runs of
 /// points along a hierarchical order of pixels is from Ahmed & Wonka 2020, "Screen-Space Blue-Noise Diffusion
 /// of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels"; they give each pixel 2^L numbers of
 /// its own, so that L must be known and only all of the 2^L samples are well spread over neighbours. Here,
 /// pixel m (along the Morton curve) and sample s are digits of the same point over GF(2),
 ///     x = s + T m,   y = P s + T P m   (bits reversed),
-/// with P Sobol's second matrix and T Pascal's triangle transposed, and Owen-scrambled for the whole film.
+/// with P Sobol's second matrix and T Pascal's triangle transposed, and Owen-scrambled for the whole tile.
 /// For each pixel this is the (0,2)-sequence of sobol_point, only shifted. At one sample, the 4^k pixels of
 /// each aligned square have a (0, 2k, 2)-net. At 2^L samples, known in advance or not, each of their
 /// coordinates is a (0, L + 2k, 1)-net: of the L + 2k leading bits s makes the first L, and T makes the
 /// others run through all values with m (see pascal_transposed). A net of both coordinates at every L cannot
 /// be: for two pixels at two samples it would take four different lines of the plane over GF(2), which has
-/// three.
+/// three. So the gain is largest at few samples, and it is for smooth integrands, as that of all such points.
 vec2 blue_noise_point(std::uint64_t key, std::uint32_t reversed_sample, std::uint32_t reversed_morton);
 
 } // namespace candela

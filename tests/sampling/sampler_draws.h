@@ -31,12 +31,11 @@ inline vec2 draw(Sampler& sampler, const Key& k) {
   return sampler.get_2d(k.dimension, k.index);
 }
 
-/// Pixels whose numbers are independent with every sampler: those of blue_noise are only in different squares
-/// of 2^16 pixels a side.
+/// Pixels whose numbers are independent with every sampler: those of blue_noise are only in different tiles.
 inline uvec2 independent_pixel(SamplerType type, std::uint32_t x, std::uint32_t y) {
   if (type != SamplerType::blue_noise) return {x, y};
   std::uint32_t h = hash32(x * 0x10001u ^ hash32(y));
-  return {(x << 16) | (h & 0xffffu), (y << 16) | (h >> 16)};
+  return {x * kBlueNoiseTile + h % kBlueNoiseTile, y * kBlueNoiseTile + (h >> 16) % kBlueNoiseTile};
 }
 
 /// Whether the 2^m points have one in each elementary interval of size 2^-m, of every shape.
