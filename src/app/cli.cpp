@@ -1,6 +1,7 @@
 #include "app/cli.h"
 
 #include "app/compare_command.h"
+#include "app/gallery_command.h"
 #include "app/info_command.h"
 #include "app/render_command.h"
 #include "app/settings_command.h"
@@ -74,6 +75,20 @@ int run(int argc, char** argv) {
   add_common_options(*info, info_options);
   info->get_option("scene")->required();
 
+  GalleryOptions gallery_options;
+  auto* gallery = app.add_subcommand("gallery", "Make the figures of a gallery file");
+  gallery->add_option("name", gallery_options.names, "Figures to make; none: all");
+  gallery->add_option("-o,--output", gallery_options.folder, "Folder that the pictures go to");
+  gallery->add_option("--file", gallery_options.file, "Gallery file; else the one that comes with Candela")
+      ->check(CLI::ExistingFile);
+  gallery->add_option("--spp-scale", gallery_options.spp_scale, "Multiplies all samples a pixel")
+      ->check(CLI::Range(1e-6, 1e6));
+  gallery->add_option("--threads", gallery_options.threads, "Threads to render with; 0: every core")
+      ->check(CLI::Range(0, 1024));
+  gallery->add_flag("--quick", gallery_options.quick, "Half the size, a sixteenth of the samples");
+  gallery->add_flag("--list", gallery_options.list, "Only say which figures there are");
+  gallery->add_flag("--quiet", gallery_options.quiet, "Say nothing but warnings and errors");
+
   bool json = false, markdown = false;
   auto* settings = app.add_subcommand("settings", "List every setting");
   settings->add_flag("--json", json, "As JSON");
@@ -89,6 +104,7 @@ int run(int argc, char** argv) {
   }
   if (render->parsed()) return run_render(render_options);
   if (compare->parsed()) return run_compare(compare_a, compare_b, diff);
+  if (gallery->parsed()) return run_gallery(gallery_options);
   if (info->parsed()) return run_info(info_options);
   if (settings->parsed()) return run_settings(json, markdown);
   return run_view(view_options);

@@ -57,7 +57,8 @@ std::vector<fs::path> bundled_scenes() {
   std::vector<fs::path> scenes;
   std::error_code failed;
   for (const auto& entry : fs::directory_iterator(find_data_file_if_any("scenes"), failed))
-    if (entry.path().extension() == ".json") scenes.push_back(entry.path());
+    if (entry.path().extension() == ".json" && entry.path().filename() != "gallery.json") // of figures
+      scenes.push_back(entry.path());
   std::ranges::sort(scenes);
   return scenes;
 }

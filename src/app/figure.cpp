@@ -59,28 +59,37 @@ public:
 
   FigureLayout run() {
     const std::size_t count = figure_.panels.size();
-    columns_ =
-        figure_.columns > 0 ? static_cast<std::size_t>(figure_.columns) : std::max<std::size_t>(count, 1);
-    columns_ = std::min(columns_, std::max<std::size_t>(count, 1));
-    widths_.assign(columns_, whole(kLeastPanel * figure_.scale));
-    for (std::size_t i = 0; i < count; ++i) {
-      int& width = widths_[i % columns_];
-      width = std::max(width, content_size(i).x);
+    std::size_t narrow = 0; // panels that share rows
+    for (const FigurePanel& panel : figure_.panels) narrow += !panel.whole_row;
+    narrow = std::max<std::size_t>(narrow, 1);
+    columns_ = figure_.columns > 0 ? std::min(static_cast<std::size_t>(figure_.columns), narrow) : narrow;
+    widths_.assign(columns_, px(kLeastPanel));
+    std::vector<std::pair<std::size_t, std::size_t>> rows;
+    int widest = 0;
+    for (std::size_t i = 0; i < count;) {
+      const std::size_t first = i;
+      if (figure_.panels[i].whole_row) {
+        widest = std::max(widest, content_size(i++).x);
+      } else {
+        for (; i < count && i - first < columns_ && !figure_.panels[i].whole_row; ++i)
+          widths_[i - first] = std::max(widths_[i - first], content_size(i).x);
+      }
+      rows.emplace_back(first, i);
     }
     const int margin = px(kMargin), gap = px(kGap);
-    layout_.width = 2 * margin - gap;
+    int right = margin - gap;
     for (int width : widths_) {
-      lefts_.push_back(layout_.width - margin + gap);
-      layout_.width += width + gap;
+      lefts_.push_back(right + gap);
+      right += gap + width;
     }
+    layout_.width = std::max(right, margin + widest) + margin;
     y_ = margin;
     if (!figure_.title.empty()) {
       text(FigureItem::Kind::title, 0, figure_.title, kFigureTitle,
            {margin, y_, layout_.width - 2 * margin, 0});
       y_ = bottom_ + px(kSmallGap);
     }
-    for (std::size_t first = 0; first < count; first += columns_)
-      row(first, std::min(first + columns_, count));
+    for (auto [first, last] : rows) row(first, last);
     layout_.height = std::max(y_ - gap, margin) + margin;
     return std::move(layout_);
   }
@@ -89,7 +98,7 @@ private:
   int px(float length) const { return whole(length * figure_.scale); }
 
   ivec2 picture_size(const RgbPicture& p) const {
-    if (figure_.picture_width <= 0) return {p.width, p.height};
+    if (figure_.picture_width <= 0 || p.width <= 0) return {p.width, p.height};
     if (p.width <= figure_.picture_width) return figure_.picture_width / p.width * ivec2(p.width, p.height);
     const double shrink = static_cast<double>(figure_.picture_width) / p.width;
     return {figure_.picture_width, std::max(1, static_cast<int>(std::lround(shrink * p.height)))};
@@ -117,8 +126,10 @@ private:
   }
 
   void row(std::size_t first, std::size_t last) {
-    auto left = [&](std::size_t i) { return lefts_[i % columns_]; };
-    auto width = [&](std::size_t i) { return widths_[i % columns_]; };
+    auto left = [&](std::size_t i) { return lefts_[i - first]; };
+    auto width = [&](std::size_t i) {
+      return figure_.panels[i].whole_row ? layout_.width - 2 * px(kMargin) : widths_[i - first];
+    };
     const int gap = px(kGap), small = px(kSmallGap);
     int lowest = y_;
     for (std::size_t i = first; i < last; ++i) {
@@ -142,6 +153,7 @@ private:
         continue;
       }
       const ivec2 size = picture_size(panel.picture);
+      if (size.x <= 0) continue; // a place that stays empty
       layout_.items.push_back({FigureItem::Kind::picture, i, 0, {left(i), y_, size.x, size.y}, {}, 0});
       details(i, {left(i), y_ + size.y + small});
     }
@@ -182,7 +194,7 @@ private:
   }
 
   int details_height(std::size_t panel) const {
-    if (figure_.details.empty()) return 0;
+    if (figure_.details.empty() || figure_.panels[panel].picture.width <= 0) return 0;
     int tallest = 0;
     for (const Box& part : figure_.details) tallest = std::max(tallest, detail_height(panel, part));
     return px(kSmallGap) + tallest;

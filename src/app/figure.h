@@ -25,9 +25,10 @@ ColorBar color_bar(ColorMap map, const PlotScale& scale, std::string label);
 struct FigurePanel {
   std::string title;                ///< above, may be empty
   std::vector<std::string> caption; ///< lines beneath
-  RgbPicture picture;               ///< empty where there is a plot
+  RgbPicture picture;               ///< empty where there is a plot, or nothing
   std::optional<Plot> plot;
   std::optional<ColorBar> bar;
+  bool whole_row = false; ///< stands alone in its row, across all columns
 };
 
 struct Figure {

@@ -5,6 +5,14 @@
 
 namespace candela {
 
+std::vector<std::uint8_t> displayed_srgb8(const Image& image, const DisplaySettings& display, View view,
+                                          float display_scale) {
+  std::vector<std::uint8_t> rgb(3 * image.pixels.size());
+  display_rgb8(image.pixels,
+               display_transform(image.pixels, image.width, image.height, display, view, display_scale), rgb);
+  return rgb;
+}
+
 void write_picture(const Image& image, const std::string& path, const DisplaySettings& display, View view,
                    float display_scale, int spp) {
   if (is_linear_format(image_format_of(path))) {
@@ -12,10 +20,7 @@ void write_picture(const Image& image, const std::string& path, const DisplaySet
                        {{"candela.version", CANDELA_VERSION}, {"candela.spp", std::to_string(spp)}});
     return;
   }
-  std::vector<std::uint8_t> rgb(3 * image.pixels.size());
-  display_rgb8(image.pixels,
-               display_transform(image.pixels, image.width, image.height, display, view, display_scale), rgb);
-  write_srgb8_image(image.width, image.height, rgb, path);
+  write_srgb8_image(image.width, image.height, displayed_srgb8(image, display, view, display_scale), path);
 }
 
 } // namespace candela

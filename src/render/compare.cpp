@@ -31,6 +31,18 @@ double relative_error(vec3 x, vec3 r) {
   return std::sqrt(sum / 3);
 }
 
+double relative_mse(std::span<const vec3> image, std::span<const vec3> reference) {
+  assert(image.size() == reference.size());
+  double sum = 0;
+  std::size_t finite = 0;
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    if (!is_finite(image[i]) || !is_finite(reference[i])) continue;
+    ++finite;
+    for (int c = 0; c < 3; ++c) sum += squared_relative_error(image[i][c], reference[i][c]);
+  }
+  return sum / (3 * static_cast<double>(std::max<std::size_t>(finite, 1)));
+}
+
 ComparisonResult compare_images(const Image& image, const Image& reference) {
   assert(image.width == reference.width && image.height == reference.height);
   ComparisonResult result;
@@ -51,7 +63,6 @@ ComparisonResult compare_images(const Image& image, const Image& reference) {
     for (int c = 0; c < 3; ++c) {
       double d = static_cast<double>(x[c]) - static_cast<double>(r[c]);
       result.mse += d * d;
-      result.rel_mse += squared_relative_error(x[c], r[c]);
       sum_x[static_cast<std::size_t>(c)] += static_cast<double>(x[c]);
       sum_r[static_cast<std::size_t>(c)] += static_cast<double>(r[c]);
     }
@@ -60,7 +71,7 @@ ComparisonResult compare_images(const Image& image, const Image& reference) {
   double values = 3 * static_cast<double>(image.pixels.size());
   double finite = std::max(values - 3 * static_cast<double>(result.nonfinite), 1.0);
   result.mse /= finite;
-  result.rel_mse /= finite;
+  result.rel_mse = relative_mse(image.pixels, reference.pixels);
   result.psnr = -10 * std::log10(encoded_squares / values);
   for (std::size_t c = 0; c < 3; ++c) result.mean_ratio[c] = ratio(sum_x[c], sum_r[c]);
   double sum = 0;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct ComparisonResult {
 
 /// The sizes must be equal.
 ComparisonResult compare_images(const Image& image, const Image& reference);
+
+/// ComparisonResult::rel_mse alone, without the cost of the rest. The sizes must be equal.
+double relative_mse(std::span<const vec3> image, std::span<const vec3> reference);
 
 /// {"width": …, "relMSE": …, …}, indented by two spaces, without a final line break. JSON has no infinity:
 /// the PSNR of equal pictures is null, and so is a ratio to a black reference.

@@ -15,7 +15,7 @@ std::string shipped(const std::string& name) { return CANDELA_TEST_SOURCE_DIR "/
 TEST(ShippedScenes, AreReadWithoutWarningsAndRoundTrip) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(shipped(""))) {
-    if (entry.path().extension() != ".json") continue;
+    if (entry.path().extension() != ".json" || entry.path().filename() == "gallery.json") continue;
     SCOPED_TRACE(entry.path().string());
     ++count;
     LoadedScene loaded = read_scene(entry.path().string());
