@@ -3,6 +3,7 @@
 #include "app/compare_command.h"
 #include "app/gallery_command.h"
 #include "app/info_command.h"
+#include "app/lab_command.h"
 #include "app/render_command.h"
 #include "app/settings_command.h"
 #include "app/view_command.h"
@@ -94,6 +95,8 @@ int run(int argc, char** argv) {
   settings->add_flag("--json", json, "As JSON");
   settings->add_flag("--markdown", markdown, "As a Markdown table")->excludes("--json");
 
+  LabCommand lab(app);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) { // --help, --version
@@ -107,6 +110,7 @@ int run(int argc, char** argv) {
   if (gallery->parsed()) return run_gallery(gallery_options);
   if (info->parsed()) return run_info(info_options);
   if (settings->parsed()) return run_settings(json, markdown);
+  if (lab.parsed()) return lab.run();
   return run_view(view_options);
 }
 

@@ -24,6 +24,10 @@ MaterialType override_type(BrdfOverride o) { return static_cast<MaterialType>(st
 
 } // namespace
 
+Bsdf make_bsdf(const Material& m) {
+  return make_bsdf(m.type, m.diffuse, m.specular, m.exponent, m.roughness, m.ior, m.transmittance);
+}
+
 std::shared_ptr<const RenderScene> RenderScene::build(const Document& document, const RenderScene* previous,
                                                       BuildQuality quality) {
   auto scene = std::make_shared<RenderScene>();
@@ -56,7 +60,7 @@ void RenderScene::add_materials(const Document& document) {
       s.bsdf =
           make_bsdf(override_type(o.brdf), o.diffuse, o.specular, o.exponent, o.roughness, o.ior, vec3(1));
     } else {
-      s.bsdf = make_bsdf(m.type, m.diffuse, m.specular, m.exponent, m.roughness, m.ior, m.transmittance);
+      s.bsdf = make_bsdf(m);
       if (m.diffuse_texture >= 0)
         s.diffuse_texture = textures_[static_cast<std::size_t>(m.diffuse_texture)].get();
       s.absorbing = m.type == MaterialType::dielectric && !is_black(m.absorption);

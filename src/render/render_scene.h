@@ -65,6 +65,9 @@ private:
   void add_lights(const std::vector<LightDesc>& lights);
 };
 
+/// The material's BSDF, without its texture.
+Bsdf make_bsdf(const Material& material);
+
 /// The BSDF at a surface point: its material's, with the texture looked up.
 Bsdf evaluate_bsdf(const SurfaceMaterial& material, const Surface& surface);
 

@@ -26,7 +26,8 @@ const std::map<std::string, std::set<std::string>, std::less<>>& allowed() {
     t["io"] = t["render"] = before; // siblings
     before.insert({"io", "render"});
     t["session"] = before;
-    before.insert("session");
+    t["lab"] = {"core", "sampling", "bsdf"};
+    before.insert({"session", "lab"});
     t["app"] = before;
     return t;
   }();

@@ -1,0 +1,32 @@
+#pragma once
+// What `candela lab` prints, as text and as JSON.
+
+#include "lab/brdf.h"
+#include "lab/experiments.h"
+#include "lab/points.h"
+#include "lab/warps.h"
+#include "scene/document.h"
+
+#include <string>
+
+namespace candela {
+
+struct LabReport {
+  std::string text, json; ///< both end with a new line
+};
+
+LabReport report(const Estimation<PiExperiment>& lesson);
+LabReport report(const Estimation<SolidAngleExperiment>& lesson);
+LabReport report(const Estimation<IntegralExperiment>& lesson);
+LabReport report(const WarpLesson& lesson);
+LabReport report(const BrdfLesson& lesson, const Material& material);
+
+/// The points themselves; the text is CSV.
+LabReport report_points(const PointsOptions& options, const SampleSource& source, std::uint32_t count);
+/// Discrepancy over N of every sampler, in SamplerType's order; the text is CSV.
+LabReport report_discrepancies(std::span<const DiscrepancyCurve> curves);
+
+/// What a chi-square test means, in words.
+std::string verdict(const ChiSquareResult& test);
+
+} // namespace candela

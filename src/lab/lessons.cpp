@@ -1,0 +1,38 @@
+#include "lab/lessons.h"
+
+#include <algorithm>
+
+namespace candela {
+
+namespace {
+
+constexpr LessonInfo kLessons[] = {
+    {"pi", "Pi by rejection",
+     "The error of independent points falls as 1/sqrt(N): a digit more costs a hundred times the points. "
+     "Points that are spread well do better."},
+    {"solid-angle", "Solid angle of a disc",
+     "One answer by four densities: the more samples hit and the closer the pdf follows the integrand, the "
+     "smaller the standard deviation."},
+    {"integral", "Integral of a function",
+     "Where x is drawn as the function is high, f / pdf hardly varies; raise the cells and see the standard "
+     "deviation go. Smooth functions gain most from well-spread points."},
+    {"points", "Points of the samplers",
+     "Count the points in each box of the grid: one in every elementary interval is what makes a (0,2)-net. "
+     "Two dimensions that are not drawn together show how they are padded."},
+    {"warps", "Maps of the square",
+     "The histogram must look like the density beside it: a p-value below a millionth, with independent "
+     "samples, means that the pdf is not what is sampled."},
+    {"brdf", "Lobes of a material",
+     "Turn the view towards grazing: the lobe stretches, and the albedo must not exceed 1. Directions by "
+     "the material follow the lobe, others waste samples on what reflects little."},
+};
+
+} // namespace
+
+std::span<const LessonInfo> lessons() { return kLessons; }
+
+const LessonInfo& lesson(std::string_view name) {
+  return *std::ranges::find(kLessons, name, &LessonInfo::name);
+}
+
+} // namespace candela

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace candela {
+
+struct LessonInfo {
+  std::string_view name; ///< on the command line
+  std::string_view title;
+  std::string_view look_at; ///< one line: what to see in it
+};
+
+/// Every lesson: pi, solid-angle, integral, points, warps, brdf.
+std::span<const LessonInfo> lessons();
+/// The one of this name, which must be one.
+const LessonInfo& lesson(std::string_view name);
+
+} // namespace candela
