@@ -227,6 +227,11 @@ bool LabCommand::parsed() const { return options_->lab->parsed(); }
 
 int LabCommand::run() const {
   const Options& o = *options_;
+  const std::vector<std::string> left = o.lab->remaining(true);
+  if (!left.empty() && !o.lab->get_subcommands().empty())
+    throw usage_error(fmt::format("lab {}", o.lab->get_subcommands().front()->get_name()),
+                      fmt::format("'{}' is none of its options", left.front()),
+                      "`candela lab NAME --help` lists them");
   if (o.asks_for("pi"))
     o.estimate("pi", PiExperiment{});
   else if (o.asks_for("solid-angle"))
@@ -241,7 +246,7 @@ int LabCommand::run() const {
   else if (o.asks_for("brdf"))
     o.brdf();
   else
-    throw unknown_lesson(o.lab->remaining());
+    throw unknown_lesson(left);
   return 0;
 }
 
