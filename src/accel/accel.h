@@ -64,6 +64,12 @@ struct Hit {
   PrimitiveKind kind = PrimitiveKind::triangle;
 };
 
+/// What a closest-hit ray costs: nodes of up to 8 boxes and packs of up to 8 primitives that it tests, those
+/// of instances included.
+struct TraversalCost {
+  std::uint32_t nodes = 0, packs = 0;
+};
+
 enum class BuildQuality {
   fast, ///< coarser bins and a greedy collapse: for scenes under edit
   high, ///< the wide tree of least expected cost
@@ -102,6 +108,8 @@ public:
   std::optional<Hit> intersect(const Ray& ray) const;
   /// Whether there is any hit with t in (t_min, t_max): exactly when intersect finds one.
   bool occluded(const Ray& ray) const;
+  /// What intersect(ray) costs.
+  TraversalCost cost(const Ray& ray) const;
 
   Bounds3 bounds() const; ///< of what is in the tree; empty if nothing is
   std::size_t memory_bytes() const;

@@ -15,4 +15,12 @@ bool Accel::occluded(const Ray& ray) const {
   return accel_detail::trace<simd::Float8, true>(*tree_, ray, unused);
 }
 
+TraversalCost Accel::cost(const Ray& ray) const {
+  TraversalCost cost;
+  if (!tree_ || tree_->empty()) return cost;
+  Hit unused;
+  accel_detail::trace<simd::Float8, false>(*tree_, ray, unused, cost);
+  return cost;
+}
+
 } // namespace candela

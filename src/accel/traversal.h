@@ -58,13 +58,21 @@ struct BoxRay {
 /// A child that waits to be visited.
 using Waiting = simd::Keyed<ChildRef>;
 
-template <class F, bool any_hit>
-bool trace(const AccelTree& tree, const Ray& ray, Hit& hit);
+/// Counts nothing, at no cost.
+struct NoCost {
+  struct Sink {
+    void operator++() {}
+  };
+  Sink nodes, packs;
+};
+
+template <class F, bool any_hit, class Cost>
+bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost);
 
 /// Spheres, discs and instances; out of line, for the registers belong to triangles.
-template <class F, bool any_hit>
+template <class F, bool any_hit, class Cost>
 [[gnu::noinline]] bool meet_other_leaf(const AccelTree& tree, const Ray& ray, ChildRef leaf, float t_min,
-                                       float t_max, Hit& hit) {
+                                       float t_max, Hit& hit, Cost& cost) {
   auto accept = [&](const std::array<std::uint32_t, kWidth>& primitive, PrimitiveKind kind,
                     const LaneHits& lanes) {
     if (!lanes.lanes) return false;
@@ -92,7 +100,7 @@ template <class F, bool any_hit>
     const InstanceRecord& instance = tree.instances[leaf.index()];
     const auto& m = instance.object_from_world;
     Ray local{m * vec4(ray.origin, 1), ray.t_min, m * vec4(ray.direction, 0), t_max};
-    if (!trace<F, any_hit>(*instance.object, local, hit)) return false;
+    if (!trace<F, any_hit>(*instance.object, local, hit, cost)) return false;
     hit.instance = instance.index;
     return true;
   }
@@ -101,17 +109,18 @@ template <class F, bool any_hit>
 }
 
 /// Whether the ray meets something in (max(ray.t_min, 0), ray.t_max). For the closest hit, sets
-/// hit.
-template <class F, bool any_hit>
-bool trace(const AccelTree& tree, const Ray& ray, Hit& hit) {
+/// hit. `cost` is a TraversalCost or a NoCost.
+template <class F, bool any_hit, class Cost>
+bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost) {
   const ShearedRay<F> sheared(ray);
   const float t_min = std::max(ray.t_min, 0.0f);
   float t_max = ray.t_max;
   bool found = false;
   auto meet_leaf = [&](ChildRef leaf) __attribute__((always_inline)) {
+    ++cost.packs;
     if (leaf.kind() == LeafKind::triangles) [[likely]]
       return meet_triangles<F, any_hit>(tree.triangles[leaf.index()], sheared, t_min, t_max, hit);
-    if (!meet_other_leaf<F, any_hit>(tree, ray, leaf, t_min, t_max, hit)) return false;
+    if (!meet_other_leaf<F, any_hit>(tree, ray, leaf, t_min, t_max, hit, cost)) return false;
     if constexpr (!any_hit) t_max = hit.t;
     return true;
   };
@@ -133,6 +142,7 @@ bool trace(const AccelTree& tree, const Ray& ray, Hit& hit) {
         found = true;
       }
     } else {
+      ++cost.nodes;
       const WideNode& node = nodes[current.index()];
       F t_enter;
       simd::LaneMask lanes = box_ray.intersect(node, t_min8, F(t_max), t_enter);
@@ -155,6 +165,12 @@ bool trace(const AccelTree& tree, const Ray& ray, Hit& hit) {
     } while (top->key > t_max);
     current = top->value;
   }
+}
+
+template <class F, bool any_hit>
+bool trace(const AccelTree& tree, const Ray& ray, Hit& hit) {
+  NoCost free_of_charge;
+  return trace<F, any_hit>(tree, ray, hit, free_of_charge);
 }
 
 } // namespace candela::accel_detail

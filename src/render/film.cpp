@@ -24,9 +24,34 @@ vec3 Film::variance_of_mean(int x, int y) const {
   return v;
 }
 
+double Film::relative_variance(int x, int y) const {
+  vec3 m = mean(x, y), v = variance_of_mean(x, y);
+  double sum = 0;
+  for (int c = 0; c < 3; ++c)
+    sum += static_cast<double>(v[c]) / (static_cast<double>(m[c]) * static_cast<double>(m[c]) + 0.01);
+  return sum / 3;
+}
+
 Image Film::image() const {
   Image out{width_, height_, {}};
-  resolve(1, out.pixels);
+  out.pixels.reserve(pixels_.size());
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) out.pixels.push_back(mean(x, y));
+  return out;
+}
+
+Image Film::half_image(int half) const {
+  Image out{width_, height_, {}};
+  out.pixels.reserve(pixels_.size());
+  for (const Pixel& p : pixels_) {
+    std::uint32_t odd = p.count / 2, n = half == 0 ? p.count - odd : odd;
+    vec3 mean(0);
+    for (int c = 0; n > 0 && c < 3; ++c) {
+      double sum = static_cast<double>(p.odd[c]);
+      mean[c] = static_cast<float>((half == 0 ? p.sum[c] - sum : sum) / n);
+    }
+    out.pixels.push_back(mean);
+  }
   return out;
 }
 
@@ -36,14 +61,6 @@ Image Film::variance_image() const {
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) out.pixels.push_back(variance_of_mean(x, y));
   return out;
-}
-
-void Film::resolve(int coarseness, std::vector<vec3>& out) const {
-  out.resize(pixels_.size());
-  std::size_t i = 0;
-  for (int y = 0; y < height_; ++y)
-    for (int x = 0; x < width_; ++x, ++i)
-      out[i] = coarseness == 1 || count(x, y) > 0 ? mean(x, y) : mean(x - x % coarseness, y - y % coarseness);
 }
 
 } // namespace candela

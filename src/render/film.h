@@ -21,24 +21,38 @@ public:
       p.sum[c] += v;
       p.sum_of_squares[c] += v * v;
     }
+    if (p.count % 2 == 1) p.odd += radiance;
     ++p.count;
   }
+  void add_nonfinite(int x, int y) { ++pixel(x, y).nonfinite; }
 
   int count(int x, int y) const { return static_cast<int>(pixel(x, y).count); }
   vec3 mean(int x, int y) const; ///< 0 where there is no sample
   /// Of the mean, unbiased, per channel; 0 below two samples.
   vec3 variance_of_mean(int x, int y) const;
 
+  /// Mean over the channels of variance_of_mean / (mean^2 + 0.01): the pixel's share of the expected relMSE.
+  double relative_variance(int x, int y) const;
+  /// Samples that were NaN or infinite and are in no sum.
+  int nonfinite(int x, int y) const { return static_cast<int>(pixel(x, y).nonfinite); }
+  /// Adaptive sampling has found the pixel good enough.
+  bool stopped(int x, int y) const { return pixel(x, y).stopped; }
+  void stop(int x, int y) { pixel(x, y).stopped = true; }
+
   Image image() const;
   Image variance_image() const;
-  /// The mean with the holes of a coarse first pass filled from the top left pixel of each block.
-  void resolve(int coarseness, std::vector<vec3>& out) const;
+  /// Mean of every other sample, beginning with the first (half = 0) or the second (1): two estimates of the
+  /// same image that share no sample, as denoisers want them. 0 where there is none.
+  Image half_image(int half) const;
 
 private:
   struct Pixel { ///< doubles, so that a million samples lose nothing
     double sum[3] = {0, 0, 0};
     double sum_of_squares[3] = {0, 0, 0};
+    vec3 odd{0}; ///< sum of the second, fourth, ... sample; floats will do for what a denoiser asks
     std::uint32_t count = 0;
+    std::uint32_t nonfinite : 31 = 0;
+    std::uint32_t stopped : 1 = 0;
   };
   Pixel& pixel(int x, int y) { return const_cast<Pixel&>(static_cast<const Film&>(*this).pixel(x, y)); }
   const Pixel& pixel(int x, int y) const {

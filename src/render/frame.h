@@ -39,9 +39,11 @@ struct Frame {
   int height = 0;
   int coarseness = 1; ///< side of the blocks of one sample while the first pass refines: 8, 4, 2, then 1
   int spp = 0;        ///< complete passes
-  View view = View::radiance; ///< what `linear` is
-  std::vector<vec3>
-      linear; ///< mean radiance, row 0 is the top; holes of a coarse pass filled from their block
+  View view = View::radiance;
+  std::vector<vec3> linear; ///< the view; row 0 is the top; holes of a coarse pass filled from their block
+  /// Per pixel, of the accumulated mean; empty while the first pass is coarse.
+  std::vector<vec3> variance;
+  std::vector<std::uint32_t> samples; ///< per pixel; empty while coarse
   float display_scale =
       1;          ///< multiplies `linear` for display (the depth view is shown relative to the scene)
   RayCounts rays; ///< of this accumulation

@@ -1,216 +1,170 @@
 #include "render/path_integrator.h"
 
-#include "bsdf/direction_sampling.h"
+#include "render/direct_light.h"
 
 namespace candela {
 
 namespace {
 
-/// More transparent surfaces in a row than any scene has end the ray: two coincident ones could catch it for
-/// ever.
-constexpr std::uint32_t kMaxCrossings = 1024;
+/// Branches of a split path have bounces of their own; longer unsplit paths than this would only share
+/// numbers with them.
+constexpr std::uint32_t kBranchShift = 20;
 
-/// Ray from a surface point towards w (unit).
-Ray spawn_ray(const Surface& s, vec3 w) {
-  return {offset_ray_origin(s.position, s.position_error, s.geometric_normal, w), 0, w, kInfinity};
-}
+/// A walk on its way: what the next vertex needs to know of those before.
+struct Path {
+  Ray ray;
+  vec3 throughput{1}; ///< product of f |cos| / pdf and of 1 / survival so far
+  /// What Russian roulette multiplies the throughput by: it leaves out the 1/eta^2 of refractions, which the
+  /// way out of the glass gives back, and the share of a split.
+  float roulette_scale = 1;
+  std::uint32_t branch = 0;
+  bool split = false;
+  // The last vertex: how the path left it.
+  bool arrived_by_delta = true; ///< the camera cannot be aimed from
+  float arrival_density = 0;    ///< 1/sr, times the number of directions tried there
+  vec3 previous{0};
+  LightReference reference;
+};
 
-/// Share of the light that comes through between a surface point and a light sample: 0 or 1, or the product
-/// of what the transparent surfaces between let pass.
-float visibility(const RenderScene& scene, const Surface& from, const LightSample& light, RayCounts& counts) {
-  const Accel& accel = scene.geometry().accel();
-  Ray ray = spawn_ray(from, light.direction);
-  vec3 target(0);
-  if (!light.infinite) {
-    // Both ends are moved off their surfaces by their error bounds, so what is left must be free but for what
-    // the distance adds to the rounding of t.
-    target = offset_ray_origin(light.point, light.point_error, light.point_normal, -light.direction);
-    ray.direction = target - ray.origin;
-    ray.t_max = 1 - gamma_bound(16);
-  }
-  if (!scene.has_transparency()) {
-    ++counts.shadow;
-    return accel.occluded(ray) ? 0.0f : 1.0f;
-  }
-  float through = 1;
-  for (std::uint32_t i = 0; i < kMaxCrossings; ++i) {
-    ++counts.shadow;
-    auto hit = accel.intersect(ray);
-    if (!hit) return through;
-    through *= 1 - scene.material(scene.geometry().material_of(*hit)).opacity;
-    if (through <= 0) return 0;
-    Surface s = scene.geometry().surface(ray, *hit);
-    ray.origin = offset_ray_origin(s.position, s.position_error, s.geometric_normal, ray.direction);
-    if (!light.infinite) ray.direction = target - ray.origin;
-  }
-  return 0;
-}
-
-/// Weight of the strategy with density `mine` (> 0) against the other's (Veach 1997, section 9.2).
-float heuristic(MisHeuristic how, float mine, float other) {
-  float ratio = other / mine; // squares of densities could overflow, their ratio is what matters
-  return 1 / (1 + (how == MisHeuristic::power ? ratio * ratio : ratio));
-}
-
-/// The walk's state and settings, so that its steps can be read one by one.
+/// The settings and sums of one sample, so that the walk's steps can be read one by one.
 class PathTracer {
 public:
   PathTracer(const RenderScene& scene, Sampler& sampler, const PathSettings& settings, RayCounts& counts)
-      : scene_(scene), sampler_(sampler), settings_(settings), counts_(counts) {
-    last_depth_ = settings.max_depth < 0 ? std::numeric_limits<int>::max() : settings.max_depth;
-    if (settings.component == PathComponent::emitted) last_depth_ = std::min(last_depth_, 1);
-    if (settings.component == PathComponent::direct) last_depth_ = std::min(last_depth_, 2);
-  }
+      : scene_(scene), sampler_(sampler), settings_(settings), counts_(counts),
+        last_depth_(longest_path(settings)) {}
 
-  /// With segments numbered by depth = 1, 2, ... the estimate is the sum over vertices of
-  ///   throughput x (emission met by chance, weighted + light aimed at, weighted),
-  /// throughput being the product of f |cos| / pdf and of 1 / survival so far.
-  vec3 trace(Ray ray) {
-    for (int depth = 1; depth <= last_depth_; ++depth) {
-      sampler_.set_bounce(static_cast<std::uint32_t>(depth));
-      Hit hit;
-      if (!intersect_scene(scene_, ray, sampler_, hit, counts_)) {
-        add_background(ray, depth);
-        break;
-      }
-      Surface surface = scene_.geometry().surface(ray, hit);
-      const SurfaceMaterial& material = scene_.material(surface.material);
-      vec3 wo = -ray.direction;
-      bool outside = glm::dot(wo, surface.geometric_normal) > 0;
-      if (material.absorbing && !outside) // it came through the inside of this body (Beer-Lambert)
-        throughput_ *= glm::exp(-material.absorption * glm::length(surface.position - previous_));
-      if (material.emissive && (outside || material.two_sided_emission))
-        add_emission(surface, material, ray, depth);
-      if (depth == last_depth_ || !scatter(surface, material, wo, depth, ray)) break;
-    }
-    if (settings_.clamp > 0) radiance_ = glm::min(radiance_, settings_.clamp);
-    return radiance_;
+  PathSample trace(const Ray& ray) {
+    Path path;
+    path.ray = ray;
+    walk(path, 1);
+    return sample_;
   }
 
 private:
-  bool wanted(int depth) const { // is light of paths of this length part of the component?
-    switch (settings_.component) {
-    case PathComponent::all: return true;
-    case PathComponent::emitted: return depth == 1;
-    case PathComponent::direct: return depth == 2;
-    case PathComponent::indirect: return depth > 2;
+  /// With segments numbered by depth = 1, 2, ... the estimate is the sum over vertices of
+  ///   throughput x (emission met by chance, weighted + light aimed at, weighted).
+  void walk(Path& path, int depth) {
+    for (; depth <= last_depth_; ++depth) {
+      stand_at(path, depth);
+      Hit hit;
+      if (!intersect_scene(scene_, path.ray, sampler_, hit, counts_)) {
+        add_background(path, depth);
+        return;
+      }
+      Surface surface = scene_.geometry().surface(path.ray, hit);
+      const SurfaceMaterial& material = scene_.material(surface.material);
+      vec3 wo = -path.ray.direction;
+      bool outside = glm::dot(wo, surface.geometric_normal) > 0;
+      if (material.absorbing && !outside) // it came through the inside of this body (Beer-Lambert)
+        path.throughput *= glm::exp(-material.absorption * glm::length(surface.position - path.previous));
+      if (material.emissive && (outside || material.two_sided_emission))
+        add_emission(path, surface, material, depth);
+      if (depth == last_depth_ || !scatter(path, surface, material, wo, depth)) return;
     }
-    return true;
+  }
+
+  void stand_at(const Path& path, int depth) {
+    sampler_.set_bounce(static_cast<std::uint32_t>(depth) + (path.branch << kBranchShift));
   }
 
   /// Weight of a light met by chance, given the density (1/sr) with which aiming would have found it.
-  float weight_by_chance(float aimed_pdf) const {
-    if (arrived_by_delta_ || settings_.light_sampling == LightSampling::bsdf) return 1;
+  float weight_by_chance(const Path& path, float aimed_pdf) const {
+    if (path.arrived_by_delta || settings_.light_sampling == LightSampling::bsdf) return 1;
     if (settings_.light_sampling == LightSampling::nee) return 0;
-    return heuristic(settings_.mis_heuristic, arrival_pdf_,
-                     aimed_pdf * static_cast<float>(settings_.light_samples));
+    return mis_weight(settings_.mis_heuristic, path.arrival_density,
+                      aimed_pdf * static_cast<float>(settings_.light_samples));
   }
 
-  bool needs_aimed_pdf() const {
-    return !arrived_by_delta_ && settings_.light_sampling == LightSampling::mis;
+  bool needs_aimed_pdf(const Path& path) const {
+    return !path.arrived_by_delta && settings_.light_sampling == LightSampling::mis;
   }
 
-  void add_background(const Ray& ray, int depth) {
-    if (!wanted(depth)) return;
+  void add_background(const Path& path, int depth) {
+    if (!shows_depth(settings_, depth)) return;
     for (std::uint32_t i : scene_.infinite_lights()) {
       const Light& light = scene_.lights()[i];
-      float aimed = needs_aimed_pdf()
-                        ? scene_.all_lights().pmf(i) * light_pdf(light, reference_, {}, ray.direction)
-                        : 0;
-      radiance_ += throughput_ * light_radiance(light, ray.direction) * weight_by_chance(aimed);
+      float aimed = needs_aimed_pdf(path) ? scene_.all_lights().pmf(i) *
+                                                light_pdf(light, path.reference, {}, path.ray.direction)
+                                          : 0;
+      sample_.add(path.throughput * light_radiance(light, path.ray.direction) * weight_by_chance(path, aimed),
+                  depth);
     }
   }
 
-  void add_emission(const Surface& surface, const SurfaceMaterial& material, const Ray& ray, int depth) {
-    if (!wanted(depth)) return;
+  void add_emission(const Path& path, const Surface& surface, const SurfaceMaterial& material, int depth) {
+    if (!shows_depth(settings_, depth)) return;
     float aimed = 0;
-    if (needs_aimed_pdf()) {
+    if (needs_aimed_pdf(path)) {
       std::uint32_t i = scene_.light_of(surface.emitter);
       if (i != kNoLight)
         aimed = scene_.all_lights().pmf(i) *
-                light_pdf(scene_.lights()[i], reference_, surface.position, ray.direction);
+                light_pdf(scene_.lights()[i], path.reference, surface.position, path.ray.direction);
     }
-    radiance_ += throughput_ * material.emission * weight_by_chance(aimed);
+    sample_.add(path.throughput * material.emission * weight_by_chance(path, aimed), depth);
   }
 
   /// Direct light at the vertex and the next direction; false where the path ends.
-  bool scatter(const Surface& surface, const SurfaceMaterial& material, vec3 wo, int depth, Ray& ray) {
+  bool scatter(Path& path, const Surface& surface, const SurfaceMaterial& material, vec3 wo, int depth) {
+    Vertex vertex = make_vertex(surface, material, wo);
+    if (!vertex.scatters()) return false;
     Bsdf textured;
     const Bsdf* bsdf = &material.bsdf;
     if (material.diffuse_texture != nullptr) {
       textured = evaluate_bsdf(material, surface);
       bsdf = &textured;
     }
-    Basis frame = Basis::from_normal(surface.shading_normal);
-    vec3 wo_local = frame.to_local(wo);
-    // Seen from a side from which the interpolated normal looks away: nothing sensible scatters there.
-    float side = glm::dot(wo, surface.geometric_normal);
-    if (wo_local.z * side <= 0) return false;
-    reference_ = {surface.position, side > 0 ? surface.geometric_normal : -surface.geometric_normal};
-
+    bool specular = bsdf_delta_probability(*bsdf, vertex.wo_local) >= 1;
+    int branches = path.split || specular ? 1 : settings_.split;
+    path.split |= !specular;
     // A path that can still matter beyond this vertex? Only then is aiming worth a ray.
-    if (wanted(depth + 1) && bsdf_delta_probability(*bsdf, wo_local) < 1)
-      add_direct(surface, *bsdf, frame, wo_local);
+    if (shows_depth(settings_, depth + 1) && !specular)
+      sample_.add_aimed(path.throughput *
+                            aim_at_lights(scene_, vertex, *bsdf, sampler_, settings_, branches, counts_),
+                        depth + 1);
     if (depth + 1 > last_depth_) return false;
+    if (branches == 1) return go_on(path, vertex, *bsdf, depth, 0, 1);
+    for (int k = 0; k < branches; ++k) {
+      Path child = path;
+      stand_at(path, depth);
+      child.branch = static_cast<std::uint32_t>(k);
+      child.throughput /= static_cast<float>(branches);
+      child.roulette_scale *= static_cast<float>(branches);
+      if (go_on(child, vertex, *bsdf, depth, static_cast<std::uint32_t>(k), branches)) walk(child, depth + 1);
+    }
+    return false;
+  }
 
-    vec2 u = sampler_.get_2d(Dimension::bsdf_direction);
-    auto s = sample_direction(*bsdf, wo_local, vec3(u, sampler_.get_1d(Dimension::bsdf_lobe)),
+  /// Takes the `index`-th of `tries` directions from the vertex.
+  bool go_on(Path& path, const Vertex& vertex, const Bsdf& bsdf, int depth, std::uint32_t index, int tries) {
+    vec2 u = sampler_.get_2d(Dimension::bsdf_direction, index);
+    auto s = sample_direction(bsdf, vertex.wo_local, vec3(u, sampler_.get_1d(Dimension::bsdf_lobe, index)),
                               settings_.direction_sampling);
     if (!s) return false;
-    vec3 wi = frame.to_world(s->wi);
-    bool reflected = s->wi.z * wo_local.z > 0;
-    // The interpolated normal may take a reflection through the surface, or a refraction back: no light
-    // there.
-    if ((glm::dot(wi, surface.geometric_normal) * side > 0) != reflected) return false;
-    throughput_ *= s->weight;
-    eta2_ *= sqr(s->eta);
-    if (!survives(depth)) return false;
+    vec3 wi = vertex.frame.to_world(s->wi);
+    if (!vertex.keeps_side(wi, s->wi.z * vertex.wo_local.z > 0)) return false;
+    path.throughput *= s->weight;
+    path.roulette_scale *= sqr(s->eta);
+    if (!survives(path, depth, index)) return false;
 
-    arrived_by_delta_ = s->delta;
-    arrival_pdf_ = s->pdf;
-    previous_ = surface.position;
-    ray = spawn_ray(surface, wi);
+    path.arrived_by_delta = s->delta;
+    path.arrival_density = s->pdf * static_cast<float>(tries);
+    path.previous = vertex.surface.position;
+    path.reference = vertex.reference;
+    path.ray = spawn_ray(vertex.surface, wi);
     return true;
   }
 
-  void add_direct(const Surface& surface, const Bsdf& bsdf, const Basis& frame, vec3 wo_local) {
-    // Point and directional lights can only be aimed at, so they are under every strategy.
-    bool aim = settings_.light_sampling != LightSampling::bsdf;
-    const AliasTable& table = aim ? scene_.all_lights() : scene_.delta_lights();
-    if (table.empty()) return;
-    auto n = static_cast<float>(settings_.light_samples);
-    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings_.light_samples); ++i) {
-      AliasTable::Sample choice =
-          table.sample(table.size() > 1 ? sampler_.get_1d(Dimension::light_choice, i) : 0);
-      auto light = sample_light(scene_.lights()[choice.index], reference_,
-                                sampler_.get_2d(Dimension::light_position, i));
-      if (!light || glm::dot(light->direction, reference_.normal) <= 0)
-        continue; // all that is aimed from reflects
-      vec3 wi_local = frame.to_local(light->direction);
-      BsdfEval e = direction_eval_pdf(bsdf, wo_local, wi_local, settings_.direction_sampling);
-      vec3 contribution = throughput_ * e.f_cos * light->radiance;
-      if (is_black(contribution)) continue;
-      float through = visibility(scene_, surface, *light, counts_);
-      if (through == 0) continue;
-      float pdf = choice.pmf * light->pdf;
-      float weight = 1;
-      if (!light->delta && settings_.light_sampling == LightSampling::mis)
-        weight = heuristic(settings_.mis_heuristic, n * pdf, e.pdf);
-      radiance_ += contribution * (through * weight / (pdf * n));
-    }
-  }
-
   /// Russian roulette (Arvo and Kirk 1990): going on with probability q and weight 1/q keeps the mean.
-  bool survives(int depth) {
+  bool survives(Path& path, int depth, std::uint32_t index) {
     // Nothing, or less than a normal float: rounding would keep denormals alive for ever where reflectance is
     // above 1/2.
-    if (max_component(throughput_) < std::numeric_limits<float>::min()) return false;
+    float largest = max_component(path.throughput);
+    if (largest < std::numeric_limits<float>::min()) return false;
     if (settings_.rr == RussianRoulette::off || depth < settings_.rr_depth) return true;
     float q = settings_.rr_probability;
-    // Without the 1/eta^2 of refractions, which the way out of the glass gives back.
-    if (settings_.rr == RussianRoulette::throughput) q = std::min(1.0f, max_component(throughput_) * eta2_);
-    if (sampler_.get_1d(Dimension::russian_roulette) >= q) return false;
-    throughput_ /= q;
+    if (settings_.rr == RussianRoulette::throughput) q = std::min(1.0f, largest * path.roulette_scale);
+    if (sampler_.get_1d(Dimension::russian_roulette, index) >= q) return false;
+    path.throughput /= q;
     return true;
   }
 
@@ -219,62 +173,33 @@ private:
   const PathSettings& settings_;
   RayCounts& counts_;
   int last_depth_;
-
-  vec3 radiance_{0};
-  vec3 throughput_{1};
-  float eta2_ = 1;
-  // The last vertex: how the path left it.
-  bool arrived_by_delta_ = true; ///< the camera cannot be aimed from
-  float arrival_pdf_ = 0;        ///< 1/sr
-  vec3 previous_{0};
-  LightReference reference_;
+  PathSample sample_;
 };
 
 } // namespace
 
-bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit,
-                     RayCounts& counts) {
-  const Accel& accel = scene.geometry().accel();
-  for (std::uint32_t crossing = 0; crossing < kMaxCrossings; ++crossing) {
-    ++counts.closest;
-    auto found = accel.intersect(ray);
-    if (!found) return false;
-    hit = *found;
-    if (!scene.has_transparency()) return true;
-    float opacity = scene.material(scene.geometry().material_of(hit)).opacity;
-    if (opacity >= 1 || sampler.get_1d(Dimension::opacity, crossing) < opacity) return true;
-    Surface s = scene.geometry().surface(ray, hit);
-    ray.origin = offset_ray_origin(s.position, s.position_error, s.geometric_normal, ray.direction);
+bool shows_depth(const PathSettings& settings, int depth) {
+  if (settings.only_depth > 0 && depth != settings.only_depth) return false;
+  switch (settings.component) {
+  case PathComponent::all: return true;
+  case PathComponent::emitted: return depth == 1;
+  case PathComponent::direct: return depth == 2;
+  case PathComponent::indirect: return depth > 2;
   }
-  return false;
+  return true;
 }
 
-vec3 path_radiance(const RenderScene& scene, Ray ray, Sampler& sampler, const PathSettings& settings,
-                   RayCounts& counts) {
+int longest_path(const PathSettings& settings) {
+  int last = settings.max_depth < 0 ? std::numeric_limits<int>::max() : settings.max_depth;
+  if (settings.only_depth > 0) last = std::min(last, settings.only_depth);
+  if (settings.component == PathComponent::emitted) last = std::min(last, 1);
+  if (settings.component == PathComponent::direct) last = std::min(last, 2);
+  return last;
+}
+
+PathSample path_radiance(const RenderScene& scene, const Ray& ray, Sampler& sampler,
+                         const PathSettings& settings, RayCounts& counts) {
   return PathTracer(scene, sampler, settings, counts).trace(ray);
-}
-
-vec3 view_value(const RenderScene& scene, Ray ray, vec3 forward, View view, Sampler& sampler,
-                RayCounts& counts) {
-  vec3 origin = ray.origin;
-  sampler.set_bounce(1);
-  Hit hit;
-  if (!intersect_scene(scene, ray, sampler, hit, counts)) return vec3(0);
-  Surface surface = scene.geometry().surface(ray, hit);
-  switch (view) {
-  case View::albedo: {
-    const SurfaceMaterial& material = scene.material(surface.material);
-    return bsdf_albedo(material.diffuse_texture ? evaluate_bsdf(material, surface) : material.bsdf);
-  }
-  case View::normal: {
-    vec3 n = surface.shading_normal;
-    if (glm::dot(surface.geometric_normal, ray.direction) > 0) n = -n;
-    return 0.5f * n + 0.5f;
-  }
-  case View::depth: return vec3(glm::dot(surface.position - origin, forward));
-  default: break;
-  }
-  return vec3(0);
 }
 
 } // namespace candela

@@ -1,25 +1,20 @@
 #pragma once
 // The path tracer: radiance along a camera ray by a random walk from the eye.
 
-#include "render/frame.h"
-#include "render/render_scene.h"
-#include "sampling/sampler.h"
+#include "render/path_sample.h"
+#include "render/transport.h"
 
 namespace candela {
 
-/// One sample of the radiance that arrives along `ray` (which starts in empty space), W/(m^2 sr). The sampler
-/// stands at the path's pixel and sample. Unbiased unless the settings say otherwise (max_depth, component,
-/// clamp).
-vec3 path_radiance(const RenderScene& scene, Ray ray, Sampler& sampler, const PathSettings& settings,
-                   RayCounts& counts);
+/// One sample of the radiance that arrives along `ray` (which starts in empty space). The sampler stands at
+/// the path's pixel and sample. Unbiased unless the settings say otherwise (max_depth, component,
+/// only_depth).
+PathSample path_radiance(const RenderScene& scene, const Ray& ray, Sampler& sampler,
+                         const PathSettings& settings, RayCounts& counts);
 
-/// The first surface's albedo, shading normal (mapped to 0.5 n + 0.5) or depth along `forward` (scene units),
-/// as `view` says; 0 where the ray leaves the scene.
-vec3 view_value(const RenderScene& scene, Ray ray, vec3 forward, View view, Sampler& sampler,
-                RayCounts& counts);
-
-/// The closest surface of the ray, looking through what is transparent with the chance of 1 - opacity; each
-/// crossing has a random number of its own. The ray then starts behind the last one that it passed.
-bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit, RayCounts& counts);
+/// Whether the settings show light of paths of `depth` segments.
+bool shows_depth(const PathSettings& settings, int depth);
+/// The longest path that can matter under the settings, in segments.
+int longest_path(const PathSettings& settings);
 
 } // namespace candela

@@ -2,10 +2,10 @@
 // One pass over the film: the unit of work of the session and of the command line.
 
 #include "render/film.h"
-#include "render/path_integrator.h"
+#include "render/render_scene.h"
 
+#include <array>
 #include <atomic>
-#include <span>
 
 namespace candela {
 
@@ -26,17 +26,22 @@ struct CropWindow { ///< pixels; empty width or height: the whole film
 struct PassOptions {
   int threads = 0; ///< 0: every core
   CropWindow crop;
+  /// Films of the film's size for the emitted, the direct and the indirect part of the same samples; null:
+  /// none.
+  std::array<Film*, 3> components{};
 };
 
 struct PassResult {
   bool completed = false;
+  bool converged = false; ///< adaptive sampling has nothing left to do in the window
   RayCounts rays;
   NonFiniteLog nonfinite;
 };
 
 /// Adds the range's samples to the film. The samples do not depend on threads, tiles or earlier passes. Polls
 /// `stop` between tiles and ends early where it is set; the film then holds whole samples, of some
-/// pixels more than of others. Samples that are not finite are logged, not added.
+/// pixels more than of others. Samples that are not finite are logged, not added. With adaptive.error set,
+/// blocks of pixels whose error is small enough get no more samples.
 PassResult render_pass(const RenderScene& scene, const Document& document, const SampleRange& range,
                        Film& film, const std::atomic<bool>& stop, const PassOptions& options = {});
 

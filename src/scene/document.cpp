@@ -128,7 +128,11 @@ Invalidates compare_documents(const Document& before, const Document& after) {
   for (const auto& row : settings_table())
     if (!field_equal(row, row.address(const_cast<Document&>(before)),
                      row.address(const_cast<Document&>(after))))
-      worst = std::max(worst, row.invalidates);
+      worst = std::max(worst,
+                       row.address(const_cast<Document&>(after)) != &after.settings.view ||
+                               accumulated_view(before.settings.view) != accumulated_view(after.settings.view)
+                           ? row.invalidates
+                           : Invalidates::display);
   if (before.scene.lights != after.scene.lights || before.scene.instances != after.scene.instances ||
       before.scene.textures != after.scene.textures)
     return Invalidates::scene;

@@ -32,6 +32,12 @@ enum class View : int {
   samples,
   nonfinite
 };
+/// The view whose samples a film must hold to show this one: switching between views of the same samples
+/// restarts nothing.
+constexpr View accumulated_view(View view) {
+  return view == View::variance || view == View::samples || view == View::nonfinite ? View::radiance : view;
+}
+
 enum class BrdfOverride : int { none, diffuse, phong, ggx, mirror, dielectric };
 enum class ToneMap : int { reinhard, reinhard_simple, filmic, aces, srgb };
 enum class FalseColor : int { automatic, off, viridis, magma };

@@ -1,6 +1,7 @@
 #include "session/render_session.h"
 
 #include "core/error.h"
+#include "render/film_view.h"
 #include "render/render_pass.h"
 #include "session/sample_schedule.h"
 
@@ -84,7 +85,8 @@ struct RenderSession::State {
   int spp = 0;                             ///< complete passes over the film, or over the region
   BuildQuality built = BuildQuality::high; ///< of the scene's geometry
   int published_spp = -1;                  ///< of the last snapshot
-  double seconds_per_sample = 0;           ///< of one pixel
+  View published_view = View::radiance;
+  double seconds_per_sample = 0; ///< of one pixel
   double publish_cost = 0;
   Clock::time_point published_at;
 
@@ -124,6 +126,7 @@ void RenderSession::State::render_loop() {
         continue;
       }
       if (!finished() && goes_on()) step();
+      if (spp > 0 && published_view != current.settings.view) publish(true); // of the same samples
       active = !finished();
       if ((!active || !goes_on()) && published_spp != spp) publish(true);
       std::lock_guard lock(mutex);
@@ -301,13 +304,15 @@ void RenderSession::State::publish(bool force) {
     snapshot->height = film.height();
     snapshot->coarseness = spp > 0 ? 1 : kCoarseLevels[level - 1];
     snapshot->spp = spp;
-    film.resolve(snapshot->coarseness, snapshot->linear);
     snapshot->view = current.settings.view;
+    resolve_view(film, snapshot->view, snapshot->coarseness, snapshot->linear);
+    if (spp > 0) resolve_statistics(film, snapshot->variance, snapshot->samples);
     snapshot->display_scale = display_scale(*scene, current.settings);
     snapshot->rays = rays;
     snapshot->render_seconds = render_seconds;
     snapshot->nonfinite = nonfinite;
     published_spp = spp;
+    published_view = snapshot->view;
     published_at = Clock::now();
     publish_cost = seconds_between(start, published_at);
   }

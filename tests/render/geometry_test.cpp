@@ -1,6 +1,7 @@
 // What a hit becomes, what a pixel picks, where camera rays go, what the film knows, and what a texture says.
 
 #include "render/camera_rays.h"
+#include "render/film_view.h"
 #include "render/picking.h"
 #include "render/texture_lookup.h"
 #include "render_testing.h"
@@ -215,7 +216,7 @@ TEST(Film, FillsTheHolesOfACoarsePass) {
   film.add(4, 0, vec3(2));
   film.add(1, 1, vec3(7));
   std::vector<vec3> out;
-  film.resolve(4, out);
+  resolve_view(film, View::radiance, 4, out);
   EXPECT_EQ(out[3], vec3(1));
   EXPECT_EQ(out[4 + 2 * 5], vec3(2));
   EXPECT_EQ(out[1 + 1 * 5], vec3(7));

@@ -1,0 +1,76 @@
+#include "render/film_view.h"
+
+#include "core/color.h"
+
+namespace candela {
+
+namespace {
+
+vec3 resolved_pixel(const Film& film, View view, int x, int y) {
+  switch (view) {
+  case View::depth_share: {
+    vec3 m = film.mean(x, y);
+    float total = m.x + m.y + m.z;
+    return total > 0 ? m / total : vec3(0);
+  }
+  case View::light_share: {
+    vec3 m = film.mean(x, y);
+    float total = m.x + m.y;
+    return vec3(total > 0 ? m.x / total : 0.0f);
+  }
+  case View::variance:
+    return vec3(luminance(film.variance_of_mean(x, y)) * static_cast<float>(film.count(x, y)));
+  case View::samples: return vec3(static_cast<float>(film.count(x, y)));
+  case View::nonfinite: return vec3(static_cast<float>(film.nonfinite(x, y)));
+  default: return film.mean(x, y);
+  }
+}
+
+std::size_t pixel_count(const Film& film) {
+  return static_cast<std::size_t>(film.width()) * static_cast<std::size_t>(film.height());
+}
+
+} // namespace
+
+void resolve_view(const Film& film, View view, int coarseness, std::vector<vec3>& out) {
+  out.resize(pixel_count(film));
+  const int width = film.width(), height = film.height();
+  vec3* pixels = out.data();
+#pragma omp parallel for schedule(static)
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      bool hole = coarseness > 1 && film.count(x, y) + film.nonfinite(x, y) == 0;
+      pixels[static_cast<std::ptrdiff_t>(y) * width + x] =
+          hole ? resolved_pixel(film, view, x - x % coarseness, y - y % coarseness)
+               : resolved_pixel(film, view, x, y);
+    }
+}
+
+Image view_image(const Film& film, View view) {
+  Image image{film.width(), film.height(), {}};
+  resolve_view(film, view, 1, image.pixels);
+  return image;
+}
+
+void resolve_statistics(const Film& film, std::vector<vec3>& variance_of_mean,
+                        std::vector<std::uint32_t>& samples) {
+  variance_of_mean.resize(pixel_count(film));
+  samples.resize(pixel_count(film));
+  const int width = film.width(), height = film.height();
+#pragma omp parallel for schedule(static)
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      variance_of_mean[i] = film.variance_of_mean(x, y);
+      samples[i] = static_cast<std::uint32_t>(film.count(x, y));
+    }
+}
+
+double estimated_relmse(const Film& film) {
+  double sum = 0; // in pixel order: the same for any number of threads
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x) sum += film.relative_variance(x, y);
+  return film.width() > 0 ? sum / static_cast<double>(pixel_count(film)) : 0;
+}
+
+} // namespace candela

@@ -1,0 +1,27 @@
+#pragma once
+// What a film shows: its means, or what it knows of its samples.
+
+#include "render/film.h"
+
+namespace candela {
+
+/// Fills `out` with the picture of the view, row 0 is the top. The film holds the samples of
+/// accumulated_view(view). The holes of a coarse first pass take the top left pixel of their block.
+/// - depth_share: red, green and blue are the shares of direct light (emitters seen among it), of one bounce
+///   and of more in the radiance;
+/// - light_share: the share of the light that aiming at lights found, the rest being found by chance;
+/// - variance: luminance of the variance of one sample; samples, nonfinite: counts;
+/// - others: the mean.
+void resolve_view(const Film& film, View view, int coarseness, std::vector<vec3>& out);
+Image view_image(const Film& film, View view);
+
+/// Per pixel, unbiased, of the mean, per channel; and the number of samples.
+void resolve_statistics(const Film& film, std::vector<vec3>& variance_of_mean,
+                        std::vector<std::uint32_t>& samples);
+
+/// relMSE of the film against the image that it converges to, estimated from its own variance: the mean over
+/// pixels and channels of variance / (mean^2 + 0.01). Samplers that spread their samples well do better than
+/// their variance says.
+double estimated_relmse(const Film& film);
+
+} // namespace candela

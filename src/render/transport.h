@@ -1,0 +1,61 @@
+#pragma once
+// Rays between surfaces: what every integrator needs, whatever it estimates.
+
+#include "render/frame.h"
+#include "render/render_scene.h"
+#include "sampling/sampler.h"
+
+namespace candela {
+
+/// Ray from a surface point towards w (unit), clear of the surface's own rounding.
+inline Ray spawn_ray(const Surface& s, vec3 w) {
+  return {offset_ray_origin(s.position, s.position_error, s.geometric_normal, w), 0, w, kInfinity};
+}
+
+/// The closest surface of the ray, looking through what is transparent with the chance of 1 - opacity; each
+/// crossing has a random number of its own. The ray then starts behind the last one that it passed.
+bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit, RayCounts& counts);
+
+/// Share of the light that comes through between a surface point and a light sample: 0 or 1, or the product
+/// of what the transparent surfaces between let pass.
+float visibility(const RenderScene& scene, const Surface& from, const LightSample& light, RayCounts& counts);
+
+/// Weight of the strategy with density `mine` (> 0) against the other's, numbers of samples included (Veach
+/// 1997, section 9.2).
+inline float mis_weight(MisHeuristic how, float mine, float other) {
+  float ratio = other / mine; // squares of densities could overflow, their ratio is what matters
+  return 1 / (1 + (how == MisHeuristic::power ? ratio * ratio : ratio));
+}
+
+/// A hit made ready for scattering.
+struct Vertex {
+  Surface surface;
+  const SurfaceMaterial* material = nullptr;
+  vec3 wo{0}; ///< unit, where the ray came from
+  Basis frame;
+  vec3 wo_local{0};
+  float side = 0;           ///< cosine of wo with the geometric normal: > 0 outside
+  LightReference reference; ///< of this point, for aiming at lights
+
+  /// Whether anything sensible scatters here: not where the interpolated normal looks away from the viewer.
+  bool scatters() const { return wo_local.z * side > 0; }
+  /// Whether a scattered direction stays on the side of the surface that its reflection or refraction means;
+  /// the interpolated normal may take it through.
+  bool keeps_side(vec3 wi, bool reflected) const {
+    return (glm::dot(wi, surface.geometric_normal) * side > 0) == reflected;
+  }
+};
+
+inline Vertex make_vertex(const Surface& surface, const SurfaceMaterial& material, vec3 wo) {
+  Vertex v;
+  v.surface = surface;
+  v.material = &material;
+  v.wo = wo;
+  v.frame = Basis::from_normal(surface.shading_normal);
+  v.wo_local = v.frame.to_local(wo);
+  v.side = glm::dot(wo, surface.geometric_normal);
+  v.reference = {surface.position, v.side > 0 ? surface.geometric_normal : -surface.geometric_normal};
+  return v;
+}
+
+} // namespace candela

@@ -1,0 +1,135 @@
+#include "render/whitted_integrator.h"
+
+#include "bsdf/delta_lobes.h"
+#include "render/direct_light.h"
+#include "render/path_integrator.h"
+
+namespace candela {
+
+namespace {
+
+/// Both branches of glass are followed for so many surfaces; then one is chosen by chance, which keeps the
+/// mean and the cost.
+constexpr int kBranchingDepth = 5;
+/// Branches have bounces of their own.
+constexpr std::uint32_t kBranchShift = 20;
+
+struct SpecularRay {
+  Ray ray;
+  vec3 throughput{1};
+  float eta2 = 1;
+  std::uint32_t branch = 1; ///< a bit per choice, the leading one marks their number
+  vec3 previous{0};
+};
+
+class WhittedTracer {
+public:
+  WhittedTracer(const RenderScene& scene, Sampler& sampler, const PathSettings& settings, RayCounts& counts)
+      : scene_(scene), sampler_(sampler), settings_(settings), counts_(counts),
+        last_depth_(longest_path(settings)) {
+    // No direction is tried by chance but the specular ones: aiming is alone, with full weight.
+    settings_.light_sampling = LightSampling::nee;
+  }
+
+  PathSample trace(const Ray& ray) {
+    SpecularRay first;
+    first.ray = ray;
+    follow(first, 1);
+    return sample_;
+  }
+
+private:
+  // Recursion is as deep as kBranchingDepth; behind that the loop goes on alone.
+  void follow(SpecularRay path, int depth) {
+    for (; depth <= last_depth_; ++depth) {
+      stand_at(path, depth);
+      Hit hit;
+      if (!intersect_scene(scene_, path.ray, sampler_, hit, counts_)) {
+        add_background(path, depth);
+        return;
+      }
+      Surface surface = scene_.geometry().surface(path.ray, hit);
+      const SurfaceMaterial& material = scene_.material(surface.material);
+      Vertex vertex = make_vertex(surface, material, -path.ray.direction);
+      bool outside = vertex.side > 0;
+      if (material.absorbing && !outside)
+        path.throughput *= glm::exp(-material.absorption * glm::length(surface.position - path.previous));
+      if (material.emissive && (outside || material.two_sided_emission) && shows_depth(settings_, depth))
+        sample_.add(path.throughput * material.emission, depth);
+      if (depth == last_depth_ || !vertex.scatters()) return;
+      Bsdf bsdf = material.diffuse_texture != nullptr ? evaluate_bsdf(material, surface) : material.bsdf;
+      if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1)
+        sample_.add_aimed(path.throughput *
+                              aim_at_lights(scene_, vertex, bsdf, sampler_, settings_, 0, counts_),
+                          depth + 1);
+      if (!leave(path, vertex, bsdf, depth)) return;
+    }
+  }
+
+  /// Sends the other branch on its own way and turns `path` into the last one; false where there is none.
+  bool leave(SpecularRay& path, const Vertex& vertex, const Bsdf& bsdf, int depth) {
+    DeltaLobes lobes = delta_lobes(bsdf, vertex.wo_local);
+    if (lobes.count == 2 && depth <= kBranchingDepth) {
+      SpecularRay other = path;
+      other.branch = 2 * path.branch + 1;
+      path.branch *= 2;
+      if (take(other, vertex, lobes.lobe[0], 1, depth)) {
+        follow(other, depth + 1);
+        stand_at(path, depth);
+      }
+      return take(path, vertex, lobes.lobe[1], 1, depth);
+    }
+    if (lobes.count == 0) return false;
+    if (lobes.count == 1) return take(path, vertex, lobes.lobe[0], 1, depth);
+    float first = max_component(lobes.lobe[0].transfer);
+    float second = max_component(lobes.lobe[1].transfer) * sqr(lobes.lobe[1].eta);
+    if (!(first + second > 0)) return false;
+    float p = first / (first + second);
+    if (sampler_.get_1d(Dimension::bsdf_lobe) < p) return take(path, vertex, lobes.lobe[0], p, depth);
+    return take(path, vertex, lobes.lobe[1], 1 - p, depth);
+  }
+
+  bool take(SpecularRay& path, const Vertex& vertex, const DeltaLobe& lobe, float probability, int depth) {
+    vec3 wi = vertex.frame.to_world(lobe.wi);
+    if (!vertex.keeps_side(wi, same_hemisphere(vertex.wo_local, lobe.wi))) return false;
+    path.throughput *= lobe.transfer / probability;
+    path.eta2 *= sqr(lobe.eta);
+    float largest = max_component(path.throughput);
+    if (largest < std::numeric_limits<float>::min()) return false;
+    // Between two mirrors a path would never end: roulette by what is left of it.
+    if (depth > kBranchingDepth) {
+      float q = std::min(1.0f, largest * path.eta2);
+      if (sampler_.get_1d(Dimension::russian_roulette) >= q) return false;
+      path.throughput /= q;
+    }
+    path.previous = vertex.surface.position;
+    path.ray = spawn_ray(vertex.surface, wi);
+    return true;
+  }
+
+  void stand_at(const SpecularRay& path, int depth) {
+    sampler_.set_bounce(static_cast<std::uint32_t>(depth) + ((path.branch - 1) << kBranchShift));
+  }
+
+  void add_background(const SpecularRay& path, int depth) {
+    if (!shows_depth(settings_, depth)) return;
+    for (std::uint32_t i : scene_.infinite_lights())
+      sample_.add(path.throughput * light_radiance(scene_.lights()[i], path.ray.direction), depth);
+  }
+
+  const RenderScene& scene_;
+  Sampler& sampler_;
+  PathSettings settings_;
+  RayCounts& counts_;
+  int last_depth_;
+  PathSample sample_;
+};
+
+} // namespace
+
+PathSample whitted_radiance(const RenderScene& scene, const Ray& ray, Sampler& sampler,
+                            const PathSettings& settings, RayCounts& counts) {
+  return WhittedTracer(scene, sampler, settings, counts).trace(ray);
+}
+
+} // namespace candela
