@@ -24,4 +24,13 @@ void resolve_statistics(const Film& film, std::vector<vec3>& variance_of_mean,
 /// their variance says.
 double estimated_relmse(const Film& film);
 
+/// The next sample number after `spp` at which stop.noise is asked: fixed numbers, so that where a render
+/// stops does not depend on how its passes divide the samples, and far enough apart that asking costs little.
+constexpr int next_noise_check(int spp) {
+  int step = 8;
+  while (step < spp / 8) step *= 2;
+  return (spp / step + 1) * step;
+}
+constexpr bool is_noise_check(int spp) { return spp > 0 && next_noise_check(spp - 1) == spp; }
+
 } // namespace candela

@@ -1,6 +1,7 @@
 #include "session/offline_render.h"
 
 #include "core/error.h"
+#include "render/film_view.h"
 
 #include <chrono>
 
@@ -18,8 +19,9 @@ double seconds_since(Clock::time_point start) {
 
 OfflineResult render_document(const Document& document, const OfflineOptions& options) {
   const StopSettings& until = document.settings.stop;
-  if (until.spp <= 0 && until.time <= 0)
-    throw usage_error("stop", "there is nothing to stop at", "give stop.spp (--spp) or stop.time (--time)");
+  if (until.spp <= 0 && until.time <= 0 && until.noise <= 0 && document.settings.adaptive.error <= 0)
+    throw usage_error("stop", "there is nothing to stop at",
+                      "give stop.spp (--spp), stop.time (--time) or stop.noise (--noise)");
   auto start = Clock::now();
   auto scene = RenderScene::build(document);
   OfflineResult result;
@@ -28,6 +30,13 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
   result.display_scale = display_scale(*scene, document.settings);
   result.film = Film(document.settings.film.width, document.settings.film.height);
 
+  PassOptions pass_options = options.pass;
+  if (options.components)
+    for (std::size_t i = 0; i < result.components.size(); ++i) {
+      result.components[i] = Film(document.settings.film.width, document.settings.film.height);
+      pass_options.components[i] = &result.components[i];
+    }
+
   static const std::atomic<bool> kNeverStop{false};
   const std::atomic<bool>& stop = options.stop ? *options.stop : kNeverStop;
   start = Clock::now();
@@ -35,10 +44,11 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
   int portion = 1; // grows while a portion is too short to be worth its synchronisation
   while (result.spp < target) {
     portion = std::min(portion, target - result.spp);
+    if (until.noise > 0) portion = std::min(portion, next_noise_check(result.spp) - result.spp);
     SampleRange range{static_cast<std::uint32_t>(result.spp),
                       static_cast<std::uint32_t>(result.spp + portion)};
     auto portion_start = Clock::now();
-    PassResult pass = render_pass(*scene, document, range, result.film, stop, options.pass);
+    PassResult pass = render_pass(*scene, document, range, result.film, stop, pass_options);
     result.rays += pass.rays;
     result.nonfinite.count += pass.nonfinite.count;
     for (const NonFiniteSample& s : pass.nonfinite.records)
@@ -55,6 +65,11 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
       options.progress(
           {result.spp, result.render_seconds, std::min(std::max(by_spp, by_time), 1.0), result.rays});
     }
+    result.converged = pass.converged && document.settings.adaptive.error > 0;
+    if (result.converged) break;
+    if (until.noise > 0 && is_noise_check(result.spp) &&
+        estimated_relmse(result.film) <= static_cast<double>(until.noise) * static_cast<double>(until.noise))
+      break;
     if (until.time > 0 && result.render_seconds >= static_cast<double>(until.time)) break;
     double taken = seconds_since(portion_start);
     if (taken < 0.1 && portion < 64)
@@ -62,7 +77,22 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
     else if (taken > 0.5 && portion > 1)
       portion /= 2;
   }
+  result.noise = std::sqrt(estimated_relmse(result.film));
   return result;
+}
+
+Image render_view(const Document& document, const OfflineResult& rendered, View view,
+                  const OfflineOptions& options) {
+  if (accumulated_view(view) == accumulated_view(document.settings.view))
+    return view_image(rendered.film, view);
+  Document other = document;
+  other.settings.view = view;
+  other.settings.stop = {};
+  other.settings.stop.spp = rendered.spp;
+  other.settings.adaptive = {};
+  OfflineOptions quiet = options;
+  quiet.components = false;
+  return view_image(render_document(other, quiet).film, view);
 }
 
 } // namespace candela

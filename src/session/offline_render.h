@@ -17,24 +17,34 @@ struct OfflineProgress {
 
 struct OfflineOptions {
   PassOptions pass;
+  bool components = false;                 ///< keep the emitted, direct and indirect parts apart, too
   const std::atomic<bool>* stop = nullptr; ///< ends early, between tiles; the film keeps what it has
   std::function<void(const OfflineProgress&)> progress; ///< called after each portion
 };
 
 struct OfflineResult {
   Film film;
-  int spp = 0; ///< complete passes
+  std::array<Film, 3> components; ///< emitted, direct, indirect, where asked for
+  int spp = 0;                    ///< complete passes
   double build_seconds = 0;
   double render_seconds = 0;
   RayCounts rays;
   NonFiniteLog nonfinite;
   float display_scale = 1;
+  double noise = 0;       ///< square root of the film's estimated relMSE
+  bool converged = false; ///< adaptive sampling stopped everywhere
   std::size_t scene_bytes = 0;
   bool interrupted = false; ///< by `stop`
 };
 
-/// Renders until the document's stop.spp or stop.time, whichever comes first (one sample a pixel at least).
-/// Throws a usage error where the document has neither.
+/// Renders until the document's stop.spp, stop.time or stop.noise, whichever comes first (one sample a pixel
+/// at least), or until adaptive sampling has stopped everywhere. Throws a usage error where the document has
+/// none of them.
 OfflineResult render_document(const Document& document, const OfflineOptions& options = {});
+
+/// Picture of another view of a rendered document, by as many samples as the render had: from the film where
+/// that holds them, by passes of their own otherwise.
+Image render_view(const Document& document, const OfflineResult& rendered, View view,
+                  const OfflineOptions& options = {});
 
 } // namespace candela

@@ -82,9 +82,11 @@ struct RenderSession::State {
   double render_seconds = 0;
   std::size_t level = 0; ///< next of kCoarseLevels
   SampleSchedule schedule;
-  int spp = 0;                             ///< complete passes over the film, or over the region
-  BuildQuality built = BuildQuality::high; ///< of the scene's geometry
-  int published_spp = -1;                  ///< of the last snapshot
+  int spp = 0;            ///< complete passes over the film, or over the region
+  bool converged = false; ///< adaptive sampling has stopped everywhere
+  double noise = std::numeric_limits<double>::infinity(); ///< when stop.noise was asked last
+  BuildQuality built = BuildQuality::high;                ///< of the scene's geometry
+  int published_spp = -1;                                 ///< of the last snapshot
   View published_view = View::radiance;
   double seconds_per_sample = 0; ///< of one pixel
   double publish_cost = 0;
@@ -207,6 +209,7 @@ void RenderSession::State::apply_region() {
     if (scene && status.phase != SessionPhase::failed) status.phase = SessionPhase::rendering;
   }
   schedule.set_region(wanted);
+  converged = false; // within another region
   if (spp > 0) spp = static_cast<int>(schedule.samples());
 }
 
@@ -234,6 +237,8 @@ void RenderSession::State::restart() {
   level = 0;
   spp = 0;
   schedule.reset(size.width, size.height, 1); // the first pass is everywhere
+  converged = false;
+  noise = std::numeric_limits<double>::infinity();
   published_spp = -1;
   seconds_per_sample = 0;
 }
@@ -241,7 +246,8 @@ void RenderSession::State::restart() {
 bool RenderSession::State::finished() const {
   const StopSettings& until = current.settings.stop;
   if (spp == 0) return false;
-  return (until.spp > 0 && spp >= until.spp) ||
+  return converged || (until.noise > 0 && noise <= static_cast<double>(until.noise)) ||
+         (until.spp > 0 && spp >= until.spp) ||
          (until.time > 0 && render_seconds >= static_cast<double>(until.time));
 }
 
@@ -263,6 +269,7 @@ void RenderSession::State::step() {
     if (!take_step() && seconds_per_sample > 0)
       portion = static_cast<int>(std::clamp(0.02 / (seconds_per_sample * pixels), 1.0, 64.0));
     if (current.settings.stop.spp > 0) portion = std::min(portion, current.settings.stop.spp - spp);
+    if (current.settings.stop.noise > 0) portion = std::min(portion, next_noise_check(spp) - spp);
     job = schedule.next(static_cast<std::uint32_t>(portion));
     range.begin = job.begin;
     range.end = job.end;
@@ -287,6 +294,8 @@ void RenderSession::State::step() {
         taken / (static_cast<double>(job.end - job.begin) * job.window.width * job.window.height);
     schedule.done(job);
     spp = static_cast<int>(schedule.samples());
+    converged = pass.converged && current.settings.adaptive.error > 0;
+    if (current.settings.stop.noise > 0 && is_noise_check(spp)) noise = std::sqrt(estimated_relmse(film));
     publish(false);
   }
 }
@@ -453,7 +462,8 @@ bool RenderSession::wait_finished(double seconds) const {
     if (s.status.generation != s.status.submitted || s.pending) return false;
     if (s.status.phase == SessionPhase::failed) return true;
     if (s.region_changed || (s.paused && s.steps_wanted > 0)) return false;
-    const bool still = s.status.phase == SessionPhase::finished || (s.status.phase == SessionPhase::paused && s.paused);
+    const bool still =
+        s.status.phase == SessionPhase::finished || (s.status.phase == SessionPhase::paused && s.paused);
     return still && s.picture && s.picture->frame == s.frame &&
            s.picture->display == s.newest.settings.display;
   });
