@@ -25,6 +25,10 @@ struct PathSample {
     add(contribution, depth);
     aimed += contribution;
   }
+  PathSample& operator*=(float weight) {
+    for (vec3* part : {&emitted, &direct, &one_bounce, &more, &aimed}) *part *= weight;
+    return *this;
+  }
 };
 
 } // namespace candela

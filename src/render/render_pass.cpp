@@ -5,6 +5,7 @@
 #include "render/first_hit_view.h"
 #include "render/path_integrator.h"
 #include "render/whitted_integrator.h"
+#include "sampling/filter.h"
 
 #include <omp.h>
 
@@ -41,7 +42,7 @@ public:
         camera_(document.scene.camera, settings_.film.width, settings_.film.height),
         sampler_(settings_.sampler.type, static_cast<std::uint64_t>(settings_.sampler.seed),
                  settings_.sampler.strata),
-        gaussian_(settings_.film.filter_radius / 3, settings_.film.filter_radius) {}
+        filter_(settings_.film.filter, settings_.film.filter_radius) {}
 
   PixelSample sample(uvec2 pixel, std::uint32_t index, RayCounts& counts) {
     return sample(pixel, index, counts, settings_);
@@ -62,14 +63,18 @@ public:
 private:
   PixelSample sample(uvec2 pixel, std::uint32_t index, RayCounts& counts, const RenderSettings& settings) {
     sampler_.start(pixel, index);
-    vec2 u = sampler_.get_2d(Dimension::film);
-    float radius = settings_.film.filter_radius;
-    vec2 offset = settings_.film.filter == FilterType::box
-                      ? vec2(sample_box(u.x, radius), sample_box(u.y, radius))
-                      : vec2(gaussian_.sample(u.x), gaussian_.sample(u.y));
+    FilterSample filter = filter_.sample(sampler_.get_2d(Dimension::film));
     vec2 lens = camera_.has_lens() ? sampler_.get_2d(Dimension::lens) : vec2(0);
-    Ray ray = camera_.ray(vec2(pixel) + 0.5f + offset, lens);
+    Ray ray = camera_.ray(vec2(pixel) + 0.5f + filter.offset, lens);
     ++counts.samples;
+    PixelSample result = along(ray, settings, counts);
+    result.value *= filter.weight;
+    result.parts *= filter.weight;
+    return result;
+  }
+
+  /// What the ray sees, before the filter weighs it.
+  PixelSample along(const Ray& ray, const RenderSettings& settings, RayCounts& counts) {
     PixelSample result;
     if (view_ != View::radiance && view_ != View::depth_share && view_ != View::light_share) {
       result.value = first_hit_value(scene_, ray, camera_.forward(), view_, sampler_, counts);
@@ -110,7 +115,7 @@ private:
   View view_;
   CameraRays camera_;
   Sampler sampler_;
-  TruncatedGaussian gaussian_;
+  PixelFilter filter_;
 };
 
 struct Window {

@@ -130,7 +130,9 @@ const Field<Document> kTable[] = {
     {{"film.filter", FieldType::choice, 0, 0, "", "Pixel filter, sampled by importance", kImage, kFilters},
      AT(settings.film.filter)},
     {{"film.filter_radius", FieldType::real, 0.01, 8, "pixels",
-      "Half the filter's full width; the gaussian's sigma is a third of it"},
+      "Half the filter's full width: a box tiles the film at 0.5, a tent interpolates at 1, the gaussian's "
+      "sigma is "
+      "a third of it (1.5 is usual), blackman_harris wants 1.5 to 2, mitchell's cubic is its own at 2"},
      AT(settings.film.filter_radius)},
     {{"view", FieldType::choice, 0, 0, "",
       "What a pixel shows: radiance, a property of the first surface, or what the render knows of itself",
