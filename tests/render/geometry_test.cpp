@@ -225,9 +225,10 @@ TEST(Film, FillsTheHolesOfACoarsePass) {
 }
 
 TEST(FilterRender, PixelsWeighTheirNeighbourhoodByTheFilter) {
-  // An edge of light: what a pixel at distance d sees of the bright half is the filter's distribution
-  // function.
-  for (FilterType filter : {FilterType::box, FilterType::gaussian}) {
+  // An edge of light: what a pixel at distance d sees of the bright half is the filter's integral, which is
+  // below 0 and above 1 beside the edge for Mitchell's.
+  for (FilterType filter : {FilterType::box, FilterType::tent, FilterType::gaussian,
+                            FilterType::blackman_harris, FilterType::mitchell}) {
     SceneMaker s(8, 32, 4096);
     s.rectangle({-50, 0, -1}, {50, 0, 0}, {0, 50, 0}, s.diffuse(vec3(0), vec3(1))); // x < 0 shines
     s.camera({0, 0, 10}, {0, 0, 0}, 10);
@@ -235,17 +236,16 @@ TEST(FilterRender, PixelsWeighTheirNeighbourhoodByTheFilter) {
     s.document.settings.film.filter_radius = 1.8f;
     s.document.settings.sampler.seed = sampler_seed(3);
     Film film = render(s.document);
-    double radius = 1.8, sigma = radius / 3;
     for (int x = 0; x < 8; ++x) {
-      double d = 4 - (x + 0.5); // from the pixel's centre to the edge
-      auto normal_cdf = [&](double v) { return 0.5 * std::erfc(-v / sigma / std::numbers::sqrt2); };
-      double inside = std::clamp(d, -radius, radius);
-      double exact = filter == FilterType::box
-                         ? (inside + radius) / (2 * radius)
-                         : (normal_cdf(inside) - normal_cdf(-radius)) / (1 - 2 * normal_cdf(-radius));
+      double inside = std::clamp((4 - (x + 0.5)) / 1.8, -1.0, 1.0); // from the pixel's centre to the edge
+      double exact = 0;
+      constexpr int kSteps = 10000;
+      for (int i = 0; i < kSteps; ++i)
+        exact += filter_value(filter, (inside + 1) * (i + 0.5) / kSteps - 1) * (inside + 1) / kSteps;
+      exact /= filter_integral(filter);
       double mean = 0;
       for (int y = 0; y < 32; ++y) mean += static_cast<double>(film.mean(x, y).r) / 32;
-      EXPECT_NEAR(mean, exact, 2e-3) << x << "; " << seed_note();
+      EXPECT_NEAR(mean, exact, 2e-3) << static_cast<int>(filter) << ' ' << x << "; " << seed_note();
     }
   }
 }
