@@ -5,6 +5,7 @@
 #include "render/picking.h"
 #include "render/texture_lookup.h"
 #include "render_testing.h"
+#include "sampling/filter.h"
 
 namespace {
 
