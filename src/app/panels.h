@@ -13,6 +13,8 @@ void render_panel(Ui& ui, ViewerState& state);
 void camera_panel(Ui& ui, ViewerState& state);
 void materials_panel(Ui& ui, ViewerState& state);
 void lights_panel(Ui& ui, ViewerState& state);
+void inspect_panel(Ui& ui, ViewerState& state);
+void bookmarks_panel(Ui& ui, ViewerState& state);
 void scenes_panel(Ui& ui, ViewerState& state);
 
 /// What is needed at any time: undo, pause and the like; above the column.

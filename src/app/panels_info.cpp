@@ -96,7 +96,9 @@ void panel_column(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
   if (ImGui::Begin("##panels", nullptr, flags)) {
     statistics_panel(ui, state);
     display_panel(ui, state);
+    inspect_panel(ui, state);
     camera_panel(ui, state);
+    bookmarks_panel(ui, state);
     render_panel(ui, state);
     materials_panel(ui, state);
     lights_panel(ui, state);

@@ -2,6 +2,7 @@
 
 #include "app/fly_camera.h"
 #include "app/panels.h"
+#include "app/panels_probe.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -89,6 +90,9 @@ void display_panel(Ui& ui, ViewerState& state) {
   for (const auto& row : settings_table())
     if (group_of(row.key) == "display")
       state.edited |= setting(ui, row, state.document, default_document(), 0.01f);
+  if (state.picture && state.document.settings.display.auto_exposure)
+    ui.readout("found exposure", fmt::format("{:+.2f} stops", state.picture->transform.automatic_exposure),
+               "What auto exposure adds to the exposure");
   if (ui.button("save", "Save PNG and EXR",
                 "Writes what is shown, as PNG and as linear EXR, under new names (P)"))
     state.save_requested = true;
@@ -107,6 +111,7 @@ void camera_panel(Ui& ui, ViewerState& state) {
       state.error = problem;
     }
   }
+  focus_rows(ui, state);
   ui.number("camera.speed", "move speed", state.speed_factor, 0.01f, 100.0f, "%.2f x", 1,
             "Speed of flight: 1 crosses the scene in four seconds (mouse wheel while a key flies).\nRestarts "
             "nothing.\nCtrl+click to type, double-click to reset.");

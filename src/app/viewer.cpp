@@ -49,7 +49,7 @@ std::string scene_title(const ViewerState& state) {
 
 Viewer::Viewer(const Gl& gl, ViewerOptions options)
     : gl_(gl), options_(std::move(options)), draw_(gl), viewport_(gl), session_(make_session(options_)),
-      reader_(options_.wake), writer_(options_.wake) {
+      reader_(options_.wake), writer_(options_.wake), inspector_(gl, options_.wake) {
   imgui_ = ImGui::CreateContext();
   ImGui::SetCurrentContext(imgui_);
   ImGuiIO& io = ImGui::GetIO();
@@ -99,6 +99,8 @@ void Viewer::frame(double now) {
   ImGui::NewFrame();
   ui_.begin_frame(state_.scale);
   run_shortcuts();
+  inspector_.update(state_, *session_, picture_rect(),
+                    io.WantCaptureMouse ? std::nullopt : std::optional(vec2(io.MousePos.x, io.MousePos.y)));
   draw_ui();
   typing_ = io.WantTextInput || imgui_->WantTextInputNextFrame > 0;
   use_mouse_on_picture();
@@ -122,7 +124,7 @@ void Viewer::frame(double now) {
 
 bool Viewer::wants_redraw() const {
   return !events_.empty() || redraws_ > 0 || fly_command().any() || reader_.has_completions() ||
-         writer_.has_completions() || session_->display() != viewport_.shown() ||
+         writer_.has_completions() || inspector_.wants_redraw() || session_->display() != viewport_.shown() ||
          session_->status().phase != drawn_phase_;
 }
 
@@ -131,6 +133,8 @@ double Viewer::idle_seconds() const {
   if (typing_ && std::ranges::any_of(ImGui::GetIO().KeysDown, std::identity())) return 0; // keys repeat
   if (is_busy(drawn_phase_) || typing_ || state_.loading > 0 || history_.pending()) return kBusyRedrawSeconds;
   double idle = kIdleRedrawSeconds;
+  if (state_.inspect.focus_mark)
+    idle = std::min(idle, std::max(state_.inspect.focus_mark->until - now_, 0.0) + 0.01);
   if (!state_.notice.empty()) idle = std::min(idle, std::max(notice_until_ - now_, 0.0) + 0.01);
   const double hint_end = first_frame_ + kHintSeconds;
   if (now_ < hint_end) idle = std::min(idle, hint_end - now_ + 0.01);
@@ -185,6 +189,7 @@ void Viewer::draw_ui() {
     panel_column(ui_, state_, vec2(free_size.x, tools), vec2(width, free_size.y - tools));
     status_line(ui_, state_, vec2(0, free_size.y), vec2(window.x, window.y - free_size.y));
   }
+  inspector_.draw(ui_, state_, picture_rect(), free, now_);
   error_strip(ui_, state_, vec2(0), free_size.x);
   help_overlay(ui_, state_, 0.5f * free_size, 0.96f * free_size);
   const vec2 bottom_center(0.5f * free_size.x, free_size.y);

@@ -8,6 +8,7 @@
 #include "app/fly_camera.h"
 #include "app/gl.h"
 #include "app/imgui_draw.h"
+#include "app/inspector.h"
 #include "app/panels.h"
 #include "app/projection.h"
 #include "app/task_thread.h"
@@ -162,6 +163,7 @@ private:
   std::unique_ptr<RenderSession> session_;
   TaskThread reader_;
   TaskThread writer_;
+  Inspector inspector_;
 };
 
 } // namespace candela

@@ -137,6 +137,7 @@ void Viewer::focus_at(vec2 screen_position) {
     const std::string& name = materials[static_cast<std::size_t>(found->material)].name;
     if (!name.empty()) on = fmt::format(" on {}", name);
   }
+  Inspector::mark_focus(state_, *found, now_);
   Camera& camera = state_.document.scene.camera;
   state_.edited |= camera.focus_distance != found->view_depth;
   camera.focus_distance = found->view_depth;

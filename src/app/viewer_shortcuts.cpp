@@ -23,6 +23,10 @@ std::optional<AxisView> axis_view(Key key, bool control) {
 
 void Viewer::run_shortcuts() {
   for (const KeyPress& press : taken_.pressed) {
+    if (const auto said = inspector_.shortcut(press.key, press.control, state_)) {
+      if (!said->empty()) notify(*said);
+      continue;
+    }
     if (const auto view = axis_view(press.key, press.control))
       state_.axis_view_requested = view;
     else if (press.control)

@@ -2,6 +2,7 @@
 // What the panels look at and change. They only ask (open this, save that); the Viewer does.
 
 #include "app/orbit_camera.h"
+#include "app/inspect_state.h"
 #include "core/bounds.h"
 #include "session/render_session.h"
 
@@ -46,6 +47,7 @@ struct ViewerState {
   bool paused = false;   ///< the user's wish; `status` tells what is
   std::string undo_name; ///< of the edit that would be undone; empty: none
   std::string redo_name;
+  InspectState inspect;
 
   // Requests to the Viewer.
   std::optional<std::string> open_path;

@@ -61,6 +61,11 @@ void Ui::record(std::string name) {
                       to_vec2(clip_lo), to_vec2(clip_hi)});
 }
 
+void Ui::record(std::string name, vec2 lo, vec2 hi) {
+  const ImVec2 room = ImGui::GetIO().DisplaySize;
+  widgets_.push_back({std::move(name), lo, hi, vec2(0), to_vec2(room)});
+}
+
 void Ui::tooltip(std::string_view text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();

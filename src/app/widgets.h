@@ -55,6 +55,8 @@ public:
 
   /// Writes down where the last ImGui item is.
   void record(std::string name);
+  /// The same for what is drawn without a widget.
+  void record(std::string name, vec2 lo, vec2 hi);
   /// The tooltip of the last item, if the mouse is on it.
   void tooltip(std::string_view text);
 

@@ -76,6 +76,18 @@ public:
            (reach * pixel_footprint(focus_distance_).y);
   }
 
+  /// View depths between which the lens blurs by no more than `limit` pixel heights.
+  struct Interval {
+    float near = 0, far = kInfinity;
+  };
+  Interval depth_of_field(float limit) const {
+    if (!has_lens()) return {};
+    const float f = focus_distance_;
+    const float k = limit * pixel_footprint(f).y / (2 * aperture_radius_); // |f - z| <= k z, or k f
+    if (orthographic_) return {std::max(f * (1 - k), 0.0f), f * (1 + k)};
+    return {f / (1 + k), k < 1 ? f / (1 - k) : kInfinity};
+  }
+
 private:
   bool orthographic_;
   vec3 origin_, forward_, right_, up_;

@@ -5,10 +5,18 @@
 
 namespace candela {
 
-std::optional<Pick> pick(const RenderScene& scene, const Document& document, vec2 film_position) {
+namespace {
+
+CameraRays pinhole_rays(const Document& document) {
   Camera pinhole = document.scene.camera;
   pinhole.aperture_radius = 0;
-  CameraRays camera(pinhole, document.settings.film.width, document.settings.film.height);
+  return {pinhole, document.settings.film.width, document.settings.film.height};
+}
+
+} // namespace
+
+std::optional<Pick> pick(const RenderScene& scene, const Document& document, vec2 film_position) {
+  const CameraRays camera = pinhole_rays(document);
   Ray ray = camera.ray(film_position, vec2(0));
   auto hit = scene.geometry().accel().intersect(ray);
   if (!hit) return std::nullopt;
@@ -22,6 +30,20 @@ std::optional<Pick> pick(const RenderScene& scene, const Document& document, vec
   p.instance = static_cast<int>(scene.geometry().instance_of(*hit));
   p.material = static_cast<int>(surface.material);
   return p;
+}
+
+DepthMap depth_map(const RenderScene& scene, const Document& document, int stride) {
+  const CameraRays camera = pinhole_rays(document);
+  const FilmSettings& film = document.settings.film;
+  DepthMap map{(film.width + stride - 1) / stride, (film.height + stride - 1) / stride, {}};
+  map.depth.reserve(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) {
+      const Ray ray = camera.ray((vec2(x, y) + 0.5f) * static_cast<float>(stride), vec2(0));
+      const auto hit = scene.geometry().accel().intersect(ray);
+      map.depth.push_back(hit ? hit->t * glm::dot(ray.direction, camera.forward()) : kInfinity);
+    }
+  return map;
 }
 
 } // namespace candela

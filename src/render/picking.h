@@ -4,6 +4,7 @@
 #include "scene/document.h"
 
 #include <optional>
+#include <vector>
 
 namespace candela {
 
@@ -20,5 +21,15 @@ struct Pick {
 
 /// The first surface under the centre of a pixel (film coordinates in pixels, top-left origin).
 std::optional<Pick> pick(const RenderScene& scene, const Document& document, vec2 film_position);
+
+/// View depths under a lattice of pixels, as a pinhole sees them.
+struct DepthMap {
+  int width = 0; ///< of the map
+  int height = 0;
+  std::vector<float> depth; ///< row 0 is the top; infinity where there is no surface
+};
+
+/// Of every `stride`-th pixel in both directions, at the middle of the square of pixels that it stands for.
+DepthMap depth_map(const RenderScene& scene, const Document& document, int stride);
 
 } // namespace candela

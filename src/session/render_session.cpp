@@ -445,14 +445,13 @@ SessionStatus RenderSession::status() const {
 }
 
 std::optional<Pick> RenderSession::pick(vec2 film_position) const {
-  std::shared_ptr<const RenderScene> scene;
-  std::shared_ptr<const Document> document;
-  {
-    std::lock_guard lock(state_->mutex);
-    scene = state_->scene;
-    document = state_->scene_document;
-  }
-  return scene ? candela::pick(*scene, *document, film_position) : std::nullopt;
+  const Built newest = built();
+  return newest.scene ? candela::pick(*newest.scene, *newest.document, film_position) : std::nullopt;
+}
+
+RenderSession::Built RenderSession::built() const {
+  std::lock_guard lock(state_->mutex);
+  return {state_->scene, state_->scene_document};
 }
 
 bool RenderSession::wait_finished(double seconds) const {

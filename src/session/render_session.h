@@ -77,6 +77,13 @@ public:
   /// builds.
   std::optional<Pick> pick(vec2 film_position) const;
 
+  /// The newest built scene with its Document, for work beside the render; null while the first builds.
+  struct Built {
+    std::shared_ptr<const RenderScene> scene;
+    std::shared_ptr<const Document> document;
+  };
+  Built built() const;
+
   /// For tests and screenshots: waits until the newest Document is finished (or failed, or paused with every
   /// step taken) and its picture is shown; false after `seconds`. Never called by the UI thread.
   bool wait_finished(double seconds) const;

@@ -52,6 +52,27 @@ protected:
   }
 };
 
+TEST_F(CliTest, LooksThroughABookmark) {
+  std::ofstream(path("views.json")) << R"({"candela": 1, "lights": [{"type": "constant"}],
+    "instances": [{"shape": "sphere"}], "settings": {"view": "depth", "film": {"width": 9, "height": 9}},
+    "bookmarks": [{"name": "near", "camera": {"position": [0, 0, 3]}},
+                  {"name": "far off", "camera": {"position": [0, 0, 30], "vertical_fov": 4}}]})";
+  ASSERT_EQ(run("render views.json --bookmark 'far off' --spp 1 -o far.exr --quiet").code, 0);
+  ASSERT_EQ(run("render views.json --bookmark near --spp 1 -o near.exr --quiet").code, 0);
+  EXPECT_NEAR(read_image(path("near.exr")).at(4, 4).x, 2, 0.1f);
+  EXPECT_NEAR(read_image(path("far.exr")).at(4, 4).x, 29, 0.1f);
+  ASSERT_EQ(
+      run("render views.json --bookmark near --set camera.position='0 0 5' --spp 1 -o set.exr --quiet").code,
+      0);
+  EXPECT_NEAR(read_image(path("set.exr")).at(4, 4).x, 4, 0.1f) << "--set wins";
+  const Outcome wrong = run("render views.json --bookmark nera --spp 1 -o no.exr");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("did you mean near?"), std::string::npos) << wrong.err;
+  const Outcome info = run("info views.json --bookmark 'far off'");
+  EXPECT_EQ(nlohmann::json::parse(info.out)["camera"]["position"][2], 30);
+  EXPECT_EQ(nlohmann::json::parse(info.out)["bookmarks"], (nlohmann::json{"near", "far off"}));
+}
+
 TEST_F(CliTest, RendersTheSameBytesWithAnyNumberOfThreads) {
   for (const char* threads : {"1", "2", "5"}) {
     Outcome o = run(fmt::format("render '{}' --size 50x40 --spp 3 --threads {} -o t{}.exr -o t{}.png --quiet",

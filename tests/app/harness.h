@@ -262,7 +262,9 @@ public:
   void unfold_all() {
     unfold("panel.statistics", "statistics.progress");
     unfold("panel.display", "display.exposure");
+    unfold("panel.inspect", "inspect.probe");
     unfold("panel.camera", "camera.vertical_fov");
+    unfold("panel.bookmarks", "bookmark.add");
     unfold("panel.render", "group.path");
     unfold("group.path", "path.max_depth");
     unfold("group.sampler", "sampler.type");
