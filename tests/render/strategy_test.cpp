@@ -1,42 +1,20 @@
 // All settings of the path that claim to be unbiased have the same expectation.
 
+#include "quadrants.h"
 #include "strategy_scenes.h"
-
-#include <array>
 
 namespace {
 
 using namespace candela;
 using namespace candela::test;
 
-constexpr int kBlocks = 4, kValues = 3 * kBlocks;
-
-struct Estimate {
-  std::array<double, kValues> mean{}, variance{};
-};
-
-/// Means of the four quadrants. The variance is that of independent samples; the better spread ones of the
-/// other samplers have no more, so that a test by it is on the safe side.
-Estimate estimate(const Film& film) {
-  Estimate e;
-  int w = film.width() / 2, h = film.height() / 2;
-  double n = w * h;
-  for (int y = 0; y < film.height(); ++y)
-    for (int x = 0; x < film.width(); ++x)
-      for (int c = 0; c < 3; ++c) {
-        auto i = static_cast<std::size_t>(3 * (y / h * 2 + x / w) + c);
-        e.mean[i] += static_cast<double>(film.mean(x, y)[c]) / n;
-        e.variance[i] += static_cast<double>(film.variance_of_mean(x, y)[c]) / (n * n);
-      }
-  return e;
-}
-
 std::string describe(const RenderSettings& s) {
   Document d;
   d.settings = s;
   std::string text;
-  for (const char* key : {"path.light_sampling", "path.mis_heuristic", "path.direction_sampling", "path.rr",
-                          "path.rr_depth", "path.light_samples", "sampler.type", "sampler.seed"})
+  for (const char* key :
+       {"path.light_sampling", "path.mis_heuristic", "path.direction_sampling", "path.rr", "path.rr_depth",
+        "path.light_samples", "path.split", "sampler.type", "sampler.seed"})
     text += std::string(key) + "=" + field_text(*find_setting(key), d) + " ";
   return text;
 }
@@ -55,15 +33,6 @@ Estimate reference(const Document& document, int spp) {
   d.settings.sampler.seed = sampler_seed(1000);
   d.settings.stop.spp = spp;
   return estimate(render(d));
-}
-
-void expect_same(const Estimate& a, const Estimate& b, int settings) {
-  for (std::size_t i = 0; i < kValues; ++i) {
-    double sigma = std::sqrt(a.variance[i] + b.variance[i]);
-    EXPECT_GT(normal_p_value((a.mean[i] - b.mean[i]) / sigma), sidak_threshold(settings * kValues))
-        << "block " << i / 3 << ", channel " << i % 3 << ": " << a.mean[i] << " against " << b.mean[i]
-        << " +- " << sigma << "; " << seed_note();
-  }
 }
 
 struct LightStrategy {
@@ -86,7 +55,7 @@ constexpr Roulette kRoulettes[] = {{RussianRoulette::off, 0},        {RussianRou
                                    {RussianRoulette::fixed, 5}};
 
 Document with_strategy(Document d, const LightStrategy& light, DirectionSampling direction,
-                       const Roulette& rr, int light_samples, SamplerType sampler, int seed) {
+                       const Roulette& rr, int light_samples, int split, SamplerType sampler, int seed) {
   PathSettings& path = d.settings.path;
   path.light_sampling = light.light;
   path.mis_heuristic = light.heuristic;
@@ -95,6 +64,7 @@ Document with_strategy(Document d, const LightStrategy& light, DirectionSampling
   path.rr_depth = rr.depth;
   path.rr_probability = 0.7f;
   path.light_samples = light_samples;
+  path.split = split;
   d.settings.sampler.type = sampler;
   d.settings.sampler.seed = seed;
   return with_cap(d);
@@ -110,8 +80,8 @@ void expect_one_expectation(const NamedScene& scene, int spp) {
   for (const LightStrategy& light : kLightStrategies)
     for (DirectionSampling direction : kDirections) {
       Document d = with_strategy(scene.document, light, direction, kRoulettes[pick(7)],
-                                 1 + 2 * static_cast<int>(pick(2)), static_cast<SamplerType>(pick(3)),
-                                 sampler_seed(++draw));
+                                 1 + 2 * static_cast<int>(pick(2)), 1 + 2 * static_cast<int>(pick(2)),
+                                 static_cast<SamplerType>(pick(7)), sampler_seed(++draw));
       d.settings.stop.spp = spp;
       SCOPED_TRACE(describe(d.settings));
       expect_same(estimate(render(d)), expected, 72);
@@ -137,8 +107,8 @@ void expect_all_combinations_agree(const NamedScene& scene) {
         for (int light_samples : {1, 3})
           for (SamplerType sampler :
                {SamplerType::independent, SamplerType::stratified, SamplerType::sobol}) {
-            Document d = with_strategy(scene.document, light, direction, rr, light_samples, sampler,
-                                       sampler_seed(++salt));
+            Document d = with_strategy(scene.document, light, direction, rr, light_samples, light_samples,
+                                       sampler, sampler_seed(++salt));
             d.settings.stop.spp = 512;
             SCOPED_TRACE(describe(d.settings));
             expect_same(estimate(render(d)), expected, kSettings);
