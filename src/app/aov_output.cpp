@@ -48,14 +48,16 @@ std::vector<std::string> write_aovs(const std::vector<Aov>& aovs, const std::vec
                                     const OfflineOptions& options) {
   std::vector<std::string> paths;
   for (const Aov& aov : aovs) {
-    Document shown = document;
-    shown.settings.view = aov.view;
-    Image image = aov.component >= 0 ? rendered.components[static_cast<std::size_t>(aov.component)].image()
-                                     : render_view(document, rendered, aov.view, options);
-    image = cut(image, options.pass.crop);
+    ViewPicture picture;
+    if (aov.component >= 0)
+      picture.image = rendered.components[static_cast<std::size_t>(aov.component)].image();
+    else
+      picture = render_view(document, rendered, aov.view, options);
+    picture.image = cropped(std::move(picture.image), options.pass.crop);
     for (const std::string& output : outputs) {
       paths.push_back(aov_path(output, aov.name));
-      write_picture(image, paths.back(), shown.settings.display, aov.view, 1, rendered.spp);
+      write_picture(picture.image, paths.back(), document.settings.display, aov.view, picture.display_scale,
+                    rendered.spp);
     }
   }
   return paths;

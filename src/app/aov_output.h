@@ -8,7 +8,8 @@
 
 namespace candela {
 
-/// One of the views' names, or emitted, direct, indirect: parts of the radiance, kept apart by the same samples.
+/// One of the views' names, or emitted, direct, indirect: parts of the radiance, kept apart by the same
+/// samples.
 struct Aov {
   std::string name;
   View view = View::radiance;
@@ -22,8 +23,8 @@ bool needs_components(const std::vector<Aov>& aovs);
 /// "out.exr" for the AOV "normal": "out.normal.exr".
 std::string aov_path(const std::string& output, const std::string& name);
 
-/// Renders what the film does not hold, and writes every AOV beside every output, in its format. Parts of the image
-/// outside of the crop window are cut off, as they are of the output. Returns the paths.
+/// Renders what the film does not hold, and writes every AOV beside every output, in its format. Parts of the
+/// image outside of the crop window are cut off, as they are of the output. Returns the paths.
 std::vector<std::string> write_aovs(const std::vector<Aov>& aovs, const std::vector<std::string>& outputs,
                                     const Document& document, const OfflineResult& rendered,
                                     const OfflineOptions& options);

@@ -55,6 +55,14 @@ int run(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber);
   render->add_option("--time", render_options.time, "Seconds of rendering to stop at; 0: never")
       ->check(CLI::NonNegativeNumber);
+  render->add_option("--noise", render_options.noise, "Relative error of the image to stop at; 0: never")
+      ->check(CLI::NonNegativeNumber);
+  render
+      ->add_option(
+          "--aov", render_options.aovs,
+          "Also write this view, or emitted, direct or indirect light, as OUTPUT.NAME.EXT; may repeat")
+      ->take_all()
+      ->allow_extra_args(false);
   render->add_option("--size", render_options.size, "Size of the image, WxH");
   render->add_option("--seed", render_options.seed, "Seed of the random numbers")
       ->check(CLI::NonNegativeNumber);

@@ -13,6 +13,14 @@ std::vector<std::uint8_t> displayed_srgb8(const Image& image, const DisplaySetti
   return rgb;
 }
 
+Image cropped(Image image, const CropWindow& crop) {
+  if (crop.width <= 0) return image;
+  Image out{crop.width, crop.height, {}};
+  for (int y = 0; y < crop.height; ++y)
+    for (int x = 0; x < crop.width; ++x) out.pixels.push_back(image.at(crop.x + x, crop.y + y));
+  return out;
+}
+
 void write_picture(const Image& image, const std::string& path, const DisplaySettings& display, View view,
                    float display_scale, int spp) {
   if (is_linear_format(image_format_of(path))) {

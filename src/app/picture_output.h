@@ -1,12 +1,15 @@
 #pragma once
 
-#include "scene/document.h"
+#include "render/render_pass.h"
 
 namespace candela {
 
 /// The picture as it is shown, 8-bit sRGB, three bytes a pixel.
 std::vector<std::uint8_t> displayed_srgb8(const Image& image, const DisplaySettings& display, View view,
                                           float display_scale);
+
+/// The part of the image in the window.
+Image cropped(Image image, const CropWindow& crop);
 
 /// Writes a rendered picture in the format of the path's ending: tone-mapped (PNG, JPG, PPM), exactly as the
 /// window shows it, or linear (EXR, HDR, PFM). `view` says what the image holds, `display_scale` is

@@ -1,11 +1,13 @@
 #include "app/render_command.h"
 
+#include "app/aov_output.h"
 #include "app/picture_output.h"
 #include "app/progress_bar.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "render/compare.h"
+#include "render/film_view.h"
 #include "session/offline_render.h"
 
 #include <fmt/format.h>
@@ -70,10 +72,9 @@ std::vector<int> integers(const std::string& text, char separator, std::size_t n
 
 void apply_options(const RenderOptions& o, Document& document, PassOptions& pass) {
   if (o.spp) document.settings.stop.spp = *o.spp;
-  if (o.time) {
-    document.settings.stop.time = *o.time;
-    if (!o.spp) document.settings.stop.spp = 0; // the time alone decides
-  }
+  if (o.time) document.settings.stop.time = *o.time;
+  if (o.noise) document.settings.stop.noise = *o.noise;
+  if ((o.time || o.noise) && !o.spp) document.settings.stop.spp = 0; // they alone decide
   if (o.seed) document.settings.sampler.seed = *o.seed;
   if (o.size) {
     auto size = integers(*o.size, 'x', 2, "--size", "WxH, such as 1280x720");
@@ -95,14 +96,6 @@ void apply_options(const RenderOptions& o, Document& document, PassOptions& pass
   }
 }
 
-Image cut(Image image, const CropWindow& crop) {
-  if (crop.width <= 0) return image;
-  Image out{crop.width, crop.height, {}};
-  for (int y = 0; y < crop.height; ++y)
-    for (int x = 0; x < crop.width; ++x) out.pixels.push_back(image.at(crop.x + x, crop.y + y));
-  return out;
-}
-
 nlohmann::ordered_json stats_json(const Document& document, const OfflineResult& result, const Image& image,
                                   double load_seconds, int threads) {
   rusage usage{};
@@ -115,6 +108,7 @@ nlohmann::ordered_json stats_json(const Document& document, const OfflineResult&
   j["width"] = image.width;
   j["height"] = image.height;
   j["spp"] = result.spp;
+  j["noise"] = result.noise;
   j["samples"] = result.rays.samples;
   j["rays"] = {{"closest", result.rays.closest}, {"shadow", result.rays.shadow}};
   double seconds = std::max(result.render_seconds, 1e-9);
@@ -152,6 +146,8 @@ int run_render(const RenderOptions& options) {
   std::vector<std::string> outputs = options.outputs.empty() ? loaded.output_files : options.outputs;
   if (outputs.empty()) throw usage_error("render", "there is nowhere to write to", "add -o FILE");
   for (const std::string& path : outputs) image_format_of(path); // refuse before the work, not after
+  std::vector<Aov> aovs = parse_aovs(options.aovs);
+  offline.components = needs_components(aovs);
   std::optional<Image> reference;
   if (options.reference) reference = read_image(*options.reference);
 
@@ -163,7 +159,7 @@ int run_render(const RenderOptions& options) {
     SignalGuard guard;
     result = render_document(loaded.document, offline);
   }
-  Image image = cut(result.film.image(), offline.pass.crop);
+  Image image = cropped(view_image(result.film, loaded.document.settings.view), offline.pass.crop);
   if (reference && (reference->width != image.width || reference->height != image.height))
     throw input_error({*options.reference, 0, 0}, "reference",
                       fmt::format("it has {}x{} pixels, the render {}x{}", reference->width,
@@ -172,6 +168,8 @@ int run_render(const RenderOptions& options) {
   for (const std::string& path : outputs)
     write_picture(image, path, loaded.document.settings.display, loaded.document.settings.view,
                   result.display_scale, result.spp);
+  for (const std::string& path : write_aovs(aovs, outputs, loaded.document, result, offline))
+    outputs.push_back(path);
 
   int threads = options.scene.threads > 0 ? options.scene.threads : omp_get_num_procs();
   if (options.stats)

@@ -11,6 +11,8 @@ struct RenderOptions {
   std::vector<std::string> outputs; ///< empty: what the job names
   std::optional<int> spp;
   std::optional<float> time;       ///< seconds
+  std::optional<float> noise;      ///< relative error
+  std::vector<std::string> aovs;   ///< names of further pictures to write
   std::optional<std::string> size; ///< "WxH"
   std::optional<int> seed;
   std::optional<std::string> crop; ///< "X,Y,W,H"

@@ -3,6 +3,9 @@
 
 #include "render/film.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace candela {
 
 /// Fills `out` with the picture of the view, row 0 is the top. The film holds the samples of
@@ -24,13 +27,16 @@ void resolve_statistics(const Film& film, std::vector<vec3>& variance_of_mean,
 /// their variance says.
 double estimated_relmse(const Film& film);
 
-/// The next sample number after `spp` at which stop.noise is asked: fixed numbers, so that where a render
-/// stops does not depend on how its passes divide the samples, and far enough apart that asking costs little.
+/// stop.noise is asked only at these sample numbers, so that where a render stops does not depend on how its
+/// passes divide the samples: multiples of 8, and so far apart that asking costs little.
+constexpr int noise_check_step(int spp) {
+  return std::max(8, static_cast<int>(std::bit_floor(static_cast<unsigned>(spp))) / 8);
+}
+constexpr bool is_noise_check(int spp) { return spp > 0 && spp % noise_check_step(spp) == 0; }
+/// The first one after `spp` (>= 0).
 constexpr int next_noise_check(int spp) {
-  int step = 8;
-  while (step < spp / 8) step *= 2;
+  int step = noise_check_step(spp);
   return (spp / step + 1) * step;
 }
-constexpr bool is_noise_check(int spp) { return spp > 0 && next_noise_check(spp - 1) == spp; }
 
 } // namespace candela

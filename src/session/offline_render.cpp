@@ -81,10 +81,10 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
   return result;
 }
 
-Image render_view(const Document& document, const OfflineResult& rendered, View view,
-                  const OfflineOptions& options) {
+ViewPicture render_view(const Document& document, const OfflineResult& rendered, View view,
+                        const OfflineOptions& options) {
   if (accumulated_view(view) == accumulated_view(document.settings.view))
-    return view_image(rendered.film, view);
+    return {view_image(rendered.film, view), 1};
   Document other = document;
   other.settings.view = view;
   other.settings.stop = {};
@@ -92,7 +92,10 @@ Image render_view(const Document& document, const OfflineResult& rendered, View 
   other.settings.adaptive = {};
   OfflineOptions quiet = options;
   quiet.components = false;
-  return view_image(render_document(other, quiet).film, view);
+  quiet.progress = nullptr;
+  quiet.stop = nullptr; // of an interrupted render, too, every picture is whole: first hits are quick
+  OfflineResult result = render_document(other, quiet);
+  return {view_image(result.film, view), result.display_scale};
 }
 
 } // namespace candela

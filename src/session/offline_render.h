@@ -42,9 +42,14 @@ struct OfflineResult {
 /// none of them.
 OfflineResult render_document(const Document& document, const OfflineOptions& options = {});
 
-/// Picture of another view of a rendered document, by as many samples as the render had: from the film where
-/// that holds them, by passes of their own otherwise.
-Image render_view(const Document& document, const OfflineResult& rendered, View view,
-                  const OfflineOptions& options = {});
+struct ViewPicture {
+  Image image;
+  float display_scale = 1;
+};
+
+/// Another view of a rendered document, by as many samples as the render had: from the film where that holds
+/// them, by passes of their own otherwise.
+ViewPicture render_view(const Document& document, const OfflineResult& rendered, View view,
+                        const OfflineOptions& options = {});
 
 } // namespace candela
