@@ -36,6 +36,7 @@ enum class Key : int {
   up,
   down,
   f1,
+  f2,
   pause,
   left_shift,
   right_shift,

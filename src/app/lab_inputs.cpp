@@ -18,6 +18,7 @@ Material lab_material() {
   material.type = MaterialType::ggx;
   material.diffuse = vec3(0.4f);
   material.specular = vec3(0.6f);
+  material.roughness = 0.5f;
   return material;
 }
 

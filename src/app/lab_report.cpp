@@ -133,11 +133,11 @@ void coordinates(ordered_json& json, const PointsOptions& options) {
 
 std::string verdict(const ChiSquareResult& test) {
   const double p = test.p_value;
-  if (test.degrees_of_freedom == 0 && p > 0) return "there is no density to test, or too few samples";
-  if (p < 1e-6) return "the density is not what is sampled";
+  if (test.degrees_of_freedom == 0 && p > 0) return "no density to test, or too few samples";
+  if (p < 1e-6) return "the pdf is not what is sampled";
   if (p < 1e-3) return "doubtful: try other seeds";
-  if (p > 1 - 1e-3) return "the density fits, and the samples are more even than chance";
-  return "the density fits";
+  if (p > 1 - 1e-3) return "fits; samples more even than chance";
+  return "the pdf fits";
 }
 
 LabReport report(const Estimation<PiExperiment>& lesson) {

@@ -103,6 +103,9 @@ void panel_column(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
     materials_panel(ui, state);
     lights_panel(ui, state);
     scenes_panel(ui, state);
+    if (ui.button("lab.open", "Monte Carlo lab",
+                  "Lessons on samplers, densities and materials, over the picture (F2)"))
+      state.lab_visible = !state.lab_visible;
   }
   ImGui::End();
 }

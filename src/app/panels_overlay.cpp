@@ -43,6 +43,7 @@ constexpr KeyHelp kHelp[] = {
     {"Ctrl + - 0", "larger, smaller, normal text"},
     {"Ctrl+click, double click", "type a value, reset it"},
     {"drop a file", "open that scene"},
+    {"F2", "the lab: Monte Carlo lessons"},
     {"F1, Esc", "show or hide this help"},
     {"Ctrl+Q", "quit"},
 };

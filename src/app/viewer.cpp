@@ -49,7 +49,7 @@ std::string scene_title(const ViewerState& state) {
 
 Viewer::Viewer(const Gl& gl, ViewerOptions options)
     : gl_(gl), options_(std::move(options)), draw_(gl), viewport_(gl), session_(make_session(options_)),
-      reader_(options_.wake), writer_(options_.wake), inspector_(gl, options_.wake) {
+      reader_(options_.wake), writer_(options_.wake), inspector_(gl, options_.wake), lab_(options_.wake) {
   imgui_ = ImGui::CreateContext();
   ImGui::SetCurrentContext(imgui_);
   ImGuiIO& io = ImGui::GetIO();
@@ -124,8 +124,8 @@ void Viewer::frame(double now) {
 
 bool Viewer::wants_redraw() const {
   return !events_.empty() || redraws_ > 0 || fly_command().any() || reader_.has_completions() ||
-         writer_.has_completions() || inspector_.wants_redraw() || session_->display() != viewport_.shown() ||
-         session_->status().phase != drawn_phase_;
+         writer_.has_completions() || inspector_.wants_redraw() || lab_.has_news() ||
+         session_->display() != viewport_.shown() || session_->status().phase != drawn_phase_;
 }
 
 double Viewer::idle_seconds() const {
@@ -190,12 +190,13 @@ void Viewer::draw_ui() {
     status_line(ui_, state_, vec2(0, free_size.y), vec2(window.x, window.y - free_size.y));
   }
   inspector_.draw(ui_, state_, picture_rect(), free, now_);
+  lab_.draw(ui_, state_.lab_visible, vec2(0), free_size);
   error_strip(ui_, state_, vec2(0), free_size.x);
   help_overlay(ui_, state_, 0.5f * free_size, 0.96f * free_size);
   const vec2 bottom_center(0.5f * free_size.x, free_size.y);
   if (!shows_panels() && !state_.notice.empty())
     floating_line(ui_, "notice", state_.notice, bottom_center);
-  else if (now_ - first_frame_ < kHintSeconds && !state_.help_visible)
+  else if (now_ - first_frame_ < kHintSeconds && !state_.help_visible && !state_.lab_visible)
     floating_line(ui_, "hint",
                   "W A S D to fly, drag to look, middle or Alt+drag to orbit; F1 shows every key",
                   bottom_center);

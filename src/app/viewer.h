@@ -10,6 +10,7 @@
 #include "app/imgui_draw.h"
 #include "app/inspector.h"
 #include "app/panels.h"
+#include "app/panels_lab.h"
 #include "app/projection.h"
 #include "app/task_thread.h"
 #include "app/viewer_state.h"
@@ -65,6 +66,7 @@ public:
   /// Where the picture lies; parts of it may be under the panels or outside of the window.
   PixelRect picture_rect() const;
   const Viewport& viewport() const { return viewport_; }
+  const LabPanel& lab() const { return lab_; }
   ImGuiContext* imgui() const { return imgui_; }
 
 private:
@@ -164,6 +166,7 @@ private:
   TaskThread reader_;
   TaskThread writer_;
   Inspector inspector_;
+  LabPanel lab_;
 };
 
 } // namespace candela

@@ -54,6 +54,7 @@ void Viewer::run_plain_shortcut(Key key) {
   switch (key) {
   case Key::tab: state_.panels_visible = !state_.panels_visible; break;
   case Key::f1: state_.help_visible = !state_.help_visible; break;
+  case Key::f2: state_.lab_visible = !state_.lab_visible; break;
   case Key::p: state_.save_requested = true; break;
   case Key::home: state_.reset_view_requested = true; break;
   case Key::keypad_5: state_.projection_requested = true; break;

@@ -27,6 +27,7 @@ struct ViewerState {
   bool fit_film = true; ///< the film has the window's size
   bool panels_visible = true;
   bool help_visible = false;
+  bool lab_visible = false;
   float scale = 1; ///< of the user interface; 1 is 96 dots an inch
 
   SessionStatus status;

@@ -72,6 +72,7 @@ Key key_of(int glfw_key) {
       {GLFW_KEY_UP, Key::up},
       {GLFW_KEY_DOWN, Key::down},
       {GLFW_KEY_F1, Key::f1},
+      {GLFW_KEY_F2, Key::f2},
       {GLFW_KEY_LEFT_SHIFT, Key::left_shift},
       {GLFW_KEY_RIGHT_SHIFT, Key::right_shift},
       {GLFW_KEY_LEFT_CONTROL, Key::left_control},

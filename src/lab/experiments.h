@@ -12,6 +12,13 @@ namespace candela {
 /// Points of the square [-1, 1]^2; the value is 4 inside of the unit disc and 0 elsewhere, so its mean is the
 /// square's area times the disc's share of it.
 struct PiExperiment {
+  struct Options { ///< none
+    bool operator==(const Options&) const = default;
+  };
+  static std::span<const Field<Options>> fields() { return {}; }
+  PiExperiment() = default;
+  explicit PiExperiment(Options) {}
+
   Draw draw(const Sampler& sampler) const {
     vec2 p = 2.0f * sampler.get_2d(Dimension::film) - 1.0f;
     bool hit = glm::dot(p, p) <= 1;
@@ -42,6 +49,8 @@ std::span<const Field<SolidAngleOptions>> solid_angle_fields();
 /// Draw::position is the direction's (x, y); the disc is the circle of radius sin 45 degrees in it.
 class SolidAngleExperiment {
 public:
+  using Options = SolidAngleOptions;
+  static std::span<const Field<Options>> fields() { return solid_angle_fields(); }
   explicit SolidAngleExperiment(SolidAngleOptions options) : options_(options) {}
   const SolidAngleOptions& options() const { return options_; }
   Draw draw(const Sampler& sampler) const;
@@ -72,6 +81,8 @@ std::span<const Field<IntegralOptions>> integral_fields();
 /// PiecewiseConstant1D of the function. Draw::position is (x, f(x)); every draw is a hit.
 class IntegralExperiment {
 public:
+  using Options = IntegralOptions;
+  static std::span<const Field<Options>> fields() { return integral_fields(); }
   explicit IntegralExperiment(IntegralOptions options);
   const IntegralOptions& options() const { return options_; }
   Draw draw(const Sampler& sampler) const;
