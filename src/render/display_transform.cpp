@@ -125,8 +125,10 @@ DisplayTransform display_transform(std::span<const vec3> linear, int width, int 
   } else if (display.auto_exposure && view == View::radiance) {
     transform.automatic_exposure = automatic_exposure(linear, width, height);
     transform.tone.exposure += transform.automatic_exposure;
-  } else {
-    transform.tone.exposure += std::log2(display_scale);
+  } else if (view != View::radiance) {
+    // A property is shown as it is: what suits the scene's light does not suit an albedo.
+    transform.tone.tone_map = ToneMap::srgb;
+    transform.tone.exposure = std::log2(display_scale);
   }
   return transform;
 }

@@ -33,10 +33,11 @@ struct DisplayTransform {
 };
 
 /// For a picture of `view` in linear values, row by row. `display_scale` multiplies values that are shown
-/// without false colour or automatic exposure (Frame::display_scale). Only radiance is exposed automatically.
-/// The range of the false colours, where the settings leave it open, is that between the 1st and the 99th
-/// percentile of a depth, from 0 to the 99th of a cost, from 0 to the largest count, [0, 1] of a share, and
-/// at most six decades, in equal steps of the logarithm, of radiance and variance.
+/// without false colour (Frame::display_scale). Only radiance is exposed and tone-mapped; what is a property
+/// of surfaces or a share is encoded as it is. The range of the false colours, where the settings leave it
+/// open, is that between the 1st and the 99th percentile of a depth, from 0 to the 99th of a cost, from 0 to
+/// the largest count, [0, 1] of a share, and at most six decades, in equal steps of the logarithm, of
+/// radiance and variance.
 DisplayTransform display_transform(std::span<const vec3> linear, int width, int height,
                                    const DisplaySettings& display, View view, float display_scale);
 
