@@ -20,9 +20,8 @@ namespace {
 struct Samples {
   int samples = 1000000;
 };
-const Field<Samples> kSamplesField = {
-    {"samples", FieldType::integer, 1, 1e9, "", "Samples to draw", Invalidates::nothing, {}, true},
-    [](Samples& o) -> void* { return &o.samples; }};
+const Field<Samples> kSamplesField = {{"samples", FieldType::integer, 1, 1e9, "", "Samples to draw"},
+                                      [](Samples& o) -> void* { return &o.samples; }};
 
 /// The test's numbers, and the counts beside what the density makes of them. `measure` is a cell's area or
 /// solid angle, so that what is coloured is a density; only the first `rows` are shown.

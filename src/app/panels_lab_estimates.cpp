@@ -23,15 +23,7 @@ struct Run {
 };
 
 const Field<Run> kRunFields[] = {
-    {{"samples",
-      FieldType::integer,
-      1,
-      1e9,
-      "",
-      "Samples to draw of each stream",
-      Invalidates::nothing,
-      {},
-      true},
+    {{"samples", FieldType::integer, 1, 1e9, "", "Samples to draw of each stream"},
      [](Run& o) -> void* { return &o.samples; }},
     {{"streams", FieldType::integer, 1, 256, "",
       "Independent repetitions, each a pixel of its own: the plot shows the root of their mean squared "

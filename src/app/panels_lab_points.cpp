@@ -52,15 +52,7 @@ struct Inputs {
 std::span<const Field<Inputs>> fields() {
   using I = Inputs;
   static const Field<Inputs> kFields[] = {
-      {{"points",
-        FieldType::integer,
-        1,
-        16384,
-        "",
-        "How many, from sample 0",
-        Invalidates::nothing,
-        {},
-        true},
+      {{"points", FieldType::integer, 1, 16384, "", "How many, from sample 0"},
        [](I& i) -> void* { return &i.count; }},
       {{"x", FieldType::choice, 0, 0, "", "The horizontal coordinate", Invalidates::nothing,
         coordinate_names()},

