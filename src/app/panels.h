@@ -11,6 +11,8 @@ void display_panel(Ui& ui, ViewerState& state);
 /// Every row of the settings table that is not the camera's or the display's, by group.
 void render_panel(Ui& ui, ViewerState& state);
 void camera_panel(Ui& ui, ViewerState& state);
+/// What is placed in the scene: the list, and the selected object's transform and materials.
+void objects_panel(Ui& ui, ViewerState& state);
 void materials_panel(Ui& ui, ViewerState& state);
 void lights_panel(Ui& ui, ViewerState& state);
 void inspect_panel(Ui& ui, ViewerState& state);

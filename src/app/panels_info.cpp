@@ -100,12 +100,14 @@ void panel_column(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
     camera_panel(ui, state);
     bookmarks_panel(ui, state);
     render_panel(ui, state);
+    objects_panel(ui, state);
     materials_panel(ui, state);
     lights_panel(ui, state);
     scenes_panel(ui, state);
     if (ui.button("lab.open", "Monte Carlo lab",
                   "Lessons on samplers, densities and materials, over the picture (F2)"))
       state.lab_visible = !state.lab_visible;
+    state.reveal_selection = false;
   }
   ImGui::End();
 }

@@ -1,5 +1,6 @@
 // The panels of what is in the scene, and of which scene it is.
 
+#include "app/item_list.h"
 #include "app/panels.h"
 
 #include <fmt/format.h>
@@ -10,19 +11,6 @@
 namespace candela {
 
 namespace {
-
-constexpr int kListRows = 6;
-
-template <class T>
-std::string name_or_number(const T& thing, std::string_view kind, std::size_t index) {
-  return thing.name.empty() ? fmt::format("{} {}", kind, index) : thing.name;
-}
-
-bool begin_list(const char* id, std::size_t count) {
-  const auto rows = static_cast<float>(std::clamp<std::size_t>(count, 1, kListRows));
-  return ImGui::BeginListBox(
-      id, ImVec2(-1, rows * ImGui::GetTextLineHeightWithSpacing() + 2 * ImGui::GetStyle().FramePadding.y));
-}
 
 /// The material as it was loaded, if the list still is the scene's.
 template <class T>
@@ -51,16 +39,6 @@ void emission_fields_of(Ui& ui, ViewerState& state, std::size_t index) {
   }
 }
 
-/// A material that shines, or shone when the scene was loaded: one turned down to black can be turned up.
-std::vector<std::size_t> emitters(const ViewerState& state) {
-  std::vector<std::size_t> found;
-  const auto& now = state.document.scene.materials;
-  const auto& home = state.home.scene.materials;
-  for (std::size_t i = 0; i < now.size(); ++i)
-    if (!is_black(now[i].emission) || (i < home.size() && !is_black(home[i].emission))) found.push_back(i);
-  return found;
-}
-
 } // namespace
 
 void materials_panel(Ui& ui, ViewerState& state) {
@@ -71,13 +49,13 @@ void materials_panel(Ui& ui, ViewerState& state) {
     return;
   }
   state.selected_material = std::clamp(state.selected_material, 0, static_cast<int>(materials.size()) - 1);
-  if (begin_list("##materials", materials.size())) {
-    for (std::size_t i = 0; i < materials.size(); ++i)
-      if (ui.item(fmt::format("materials/{}", i), name_or_number(materials[i], "Material", i).c_str(),
-                  static_cast<int>(i) == state.selected_material))
-        state.selected_material = static_cast<int>(i);
-    ImGui::EndListBox();
-  }
+  item_list("##materials", materials.size(), state.reveal_selection ? state.selected_material : -1,
+            [&](std::size_t i) {
+              if (ui.item(fmt::format("materials/{}", i),
+                          name_or_number(materials[i].name, "Material", i).c_str(),
+                          static_cast<int>(i) == state.selected_material))
+                state.selected_material = static_cast<int>(i);
+            });
   const auto index = static_cast<std::size_t>(state.selected_material);
   Material& material = materials[index];
   ImGui::PushID(state.selected_material); // a half-typed value belongs to one material
@@ -98,27 +76,25 @@ void materials_panel(Ui& ui, ViewerState& state) {
 void lights_panel(Ui& ui, ViewerState& state) {
   if (!ui.section("panel.lights", "Lights", false)) return;
   const auto& lights = state.document.scene.lights;
-  const std::vector<std::size_t> shining = emitters(state);
+  const std::vector<std::size_t> shining = shining_materials(state.document.scene, state.home.scene);
   const std::size_t count = lights.size() + shining.size();
   if (count == 0) {
     ImGui::TextDisabled("The scene has none.");
     return;
   }
   state.selected_light = std::clamp(state.selected_light, 0, static_cast<int>(count) - 1);
-  if (begin_list("##lights", count)) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const bool is_light = i < lights.size();
-      const std::size_t index = is_light ? i : shining[i - lights.size()];
-      const std::string name = is_light ? fmt::format("lights/{}", index) : fmt::format("emitters/{}", index);
-      const std::string label =
-          is_light ? name_or_number(lights[index], "Light", index)
-                   : fmt::format("{} (surface)",
-                                 name_or_number(state.document.scene.materials[index], "Material", index));
-      if (ui.item(name, label.c_str(), static_cast<int>(i) == state.selected_light))
-        state.selected_light = static_cast<int>(i);
-    }
-    ImGui::EndListBox();
-  }
+  item_list("##lights", count, state.reveal_selection ? state.selected_light : -1, [&](std::size_t i) {
+    const bool is_light = i < lights.size();
+    const std::size_t index = is_light ? i : shining[i - lights.size()];
+    const std::string name = is_light ? fmt::format("lights/{}", index) : fmt::format("emitters/{}", index);
+    const std::string label =
+        is_light ? name_or_number(lights[index].name, "Light", index)
+                 : fmt::format("{} (surface)",
+                               name_or_number(state.document.scene.materials[index].name, "Material", index));
+    if (!ui.item(name, label.c_str(), static_cast<int>(i) == state.selected_light)) return;
+    state.selected_light = static_cast<int>(i);
+    if (is_light) state.select_requested = Selection{Selection::Kind::light, static_cast<int>(index)};
+  });
   const auto selected = static_cast<std::size_t>(state.selected_light);
   ImGui::PushID(state.selected_light);
   if (selected < lights.size())
@@ -130,17 +106,13 @@ void lights_panel(Ui& ui, ViewerState& state) {
 
 void scenes_panel(Ui& ui, ViewerState& state) {
   if (!ui.section("panel.scenes", "Scenes", false)) return;
-  if (begin_list("##scenes", state.scenes.size())) {
-    for (std::size_t i = 0; i < state.scenes.size(); ++i) {
-      const std::string path = state.scenes[i].string();
-      if (ui.item(fmt::format("scenes/{}", i), state.scenes[i].stem().string().c_str(),
-                  path == state.scene_path))
-        state.open_path = path;
-      ui.tooltip(path);
-    }
-    if (state.scenes.empty()) ImGui::TextDisabled("None came with the program.");
-    ImGui::EndListBox();
-  }
+  item_list("##scenes", state.scenes.size(), -1, [&](std::size_t i) {
+    const std::string path = state.scenes[i].string();
+    if (ui.item(fmt::format("scenes/{}", i), state.scenes[i].stem().string().c_str(),
+                path == state.scene_path))
+      state.open_path = path;
+    ui.tooltip(path);
+  });
   const float button = 64 * ui.scale();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const bool entered =

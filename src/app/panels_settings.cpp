@@ -132,7 +132,7 @@ void camera_panel(Ui& ui, ViewerState& state) {
   if (ui.button("camera.reset", "Reset view", "The camera as the scene has it (Home)"))
     state.reset_view_requested = true;
   ImGui::SameLine();
-  ImGui::TextDisabled("Click the picture to focus");
+  ImGui::TextDisabled("F over the picture focuses");
 }
 
 } // namespace candela

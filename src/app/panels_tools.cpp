@@ -39,6 +39,31 @@ std::string step_tip(const char* verb, const std::string& name, const char* keys
   return fmt::format("{}{}: {} ({})", static_cast<char>(std::toupper(verb[0])), verb + 1, name, keys);
 }
 
+/// How the mouse works on what is selected.
+void tool_buttons(Ui& ui, ViewerState& state) {
+  constexpr struct {
+    Tool tool;
+    const char *name, *label, *tip;
+  } kTools[] = {
+      {Tool::select, "tool.select", "Select", "A click selects, a drag looks around (V)"},
+      {Tool::move, "tool.move", "Move", "Handles that move the selection (G); Ctrl snaps"},
+      {Tool::rotate, "tool.rotate", "Rotate", "Rings that turn the selection (R); Ctrl snaps to 15 degrees"},
+      {Tool::scale, "tool.scale", "Scale", "Handles that scale the selection (T; S flies); Ctrl snaps"},
+  };
+  ButtonRow row(ui, ImGui::GetContentRegionAvail().x, 5);
+  for (const auto& entry : kTools)
+    if (row.button(entry.name, entry.label, entry.tip, true, state.tool == entry.tool))
+      state.tool = entry.tool;
+  const bool limited = state.region.has_value();
+  if (row.button("region", "Region",
+                 limited ? "Gives the whole picture back (Ctrl+Alt+B)"
+                         : "Drag a rectangle over the picture: only that accumulates (Ctrl+B)",
+                 true, limited || state.region_armed)) {
+    state.region_armed = !limited && !state.region_armed;
+    state.region.reset();
+  }
+}
+
 } // namespace
 
 void tool_bar(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
@@ -60,6 +85,7 @@ void tool_bar(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
       state.paused = !state.paused;
     if (row.button("step", "Step", "One more sample for every pixel, then a pause (L)"))
       state.step_requested = true;
+    tool_buttons(ui, state);
   }
   ImGui::End();
 }

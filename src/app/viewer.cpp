@@ -17,7 +17,7 @@ namespace {
 
 constexpr float kColumnWidth = 352; // at scale 1, like all lengths here
 constexpr float kStatusHeight = 24;
-constexpr float kToolHeight = 38;
+constexpr float kToolHeight = 66;
 /// Windows smaller than this show the picture alone: no panel would be readable in them.
 constexpr float kMinPanelWindowWidth = 420, kMinPanelWindowHeight = 160;
 /// A window on a dense monitor may be small all the same: the panels then take no more than they would of a
@@ -101,14 +101,17 @@ void Viewer::frame(double now) {
   run_shortcuts();
   inspector_.update(state_, *session_, picture_rect(),
                     io.WantCaptureMouse ? std::nullopt : std::optional(vec2(io.MousePos.x, io.MousePos.y)));
+  state_.selection = checked_selection(state_.document.scene, state_.selection);
   draw_ui();
+  draw_overlay();
   typing_ = io.WantTextInput || imgui_->WantTextInputNextFrame > 0;
   use_mouse_on_picture();
   fly();
   serve_requests();
   fit_film();
   keep_history();
-  if (state_.edited) session_->submit(state_.document), state_.edited = false;
+  submit();
+  send_region();
   ImGui::Render();
 
   if (framebuffer_.x > 0 && framebuffer_.y > 0) {
@@ -215,6 +218,8 @@ void Viewer::fit_film() {
 
 void Viewer::serve_requests() {
   serve_view_requests();
+  if (state_.select_requested) select(*state_.select_requested);
+  state_.select_requested.reset();
   if (state_.paused != shown_paused_) session_->pause(shown_paused_ = state_.paused);
   if (state_.step_requested) session_->step(), state_.paused = shown_paused_ = true;
   state_.step_requested = false;
@@ -255,6 +260,17 @@ void Viewer::show_state(const EditState& edit) {
   state_.bounds = scene_->bounds;
   state_.natural_speed = natural_speed(scene_->bounds, scene_->home.scene.camera);
   state_.edited = true;
+}
+
+void Viewer::submit() {
+  // Fast geometry while it moves; once the hand rests it is built well, even if nothing changed since.
+  const bool resting = gesture_ != Gesture::gizmo && !ImGui::IsAnyItemActive();
+  if (resting) state_.objects_moving = false;
+  const bool build_well = built_fast_ && resting;
+  if (!state_.edited && !build_well) return;
+  built_fast_ = state_.objects_moving;
+  session_->submit(state_.document, built_fast_ ? BuildQuality::fast : BuildQuality::high);
+  state_.edited = false;
 }
 
 void Viewer::keep_history() {

@@ -6,6 +6,7 @@
 #include "app/edit_history.h"
 #include "app/event.h"
 #include "app/fly_camera.h"
+#include "app/gizmo.h"
 #include "app/gl.h"
 #include "app/imgui_draw.h"
 #include "app/inspector.h"
@@ -82,24 +83,47 @@ private:
   // viewer_shortcuts.cpp
   struct KeyPress {
     Key key;
-    bool control, shift; // as they were then: they may be released in the same frame
+    bool control, shift, alt; // as they were then: they may be released in the same frame
   };
   void run_shortcuts();
   void run_control_shortcut(const KeyPress& press);
   void run_plain_shortcut(Key key);
+  void escape();
 
   // viewer_picture.cpp
-  enum class Gesture { none, look, orbit, pan, zoom };
-  vec3 pivot() const; ///< what orbits and zooms are about, world space
+  enum class Gesture { none, look, orbit, pan, zoom, region, gizmo };
+  vec3 pivot(); ///< what orbits and zooms are about, world space
   std::optional<ScreenProjection> projection() const;
   void set_camera(const Camera& camera);
   void use_mouse_on_picture();
   void begin_gesture(int button, vec2 mouse);
-  void drag(vec2 moved);
+  void drag(vec2 moved, vec2 mouse);
   void zoom(float factor);
   void turn_wheel(float notches);
   void focus_at(vec2 screen_position);
   void frame_selection();
+  void end_region(vec2 mouse);
+  void send_region();
+
+  // viewer_selection.cpp
+  void select_at(vec2 mouse);
+  void select(const Selection& selection);
+  std::optional<Gizmo> present_gizmo();
+  bool begin_gizmo_drag(vec2 mouse); ///< false: there is no handle
+  void drag_gizmo(vec2 mouse);
+  void cancel_gesture();
+
+  // viewer_overlay.cpp
+  struct LightIcon {
+    int index;
+    vec2 position; ///< on the screen
+  };
+  bool shows_overlays() const;
+  void draw_overlay();
+  void draw_selection(const ScreenProjection& screen, ImDrawList& list);
+  void draw_region(ImDrawList& list) const;
+  std::vector<LightIcon> light_icons(const ScreenProjection& screen) const;
+  std::optional<int> light_at(vec2 mouse) const;
 
   // viewer_files.cpp
   void open_scene(const std::string& path);
@@ -115,6 +139,7 @@ private:
   void serve_view_requests();
   void keep_history();
   void show_state(const EditState& edit);
+  void submit();
   EditState edit_state() const;
   void notify(std::string text);
   bool shows_panels() const;
@@ -146,6 +171,12 @@ private:
   vec2 press_position_{0}, drag_position_{0};
   bool dragged_ = false;
   double wheel_until_ = 0; // turns of the wheel before this are one edit
+
+  SelectionBox selection_box_;
+  std::optional<GizmoDrag> gizmo_drag_;
+  Document before_drag_;
+  bool built_fast_ = false; // while objects were being dragged
+  CropWindow sent_region_;
 
   EditHistory history_;
   std::shared_ptr<OpenScene> scene_; // the state has a copy of what panels look at

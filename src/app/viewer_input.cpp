@@ -149,7 +149,7 @@ void Viewer::apply_key(const KeyChanged& change) {
     return;
   }
   if (typing_) return;
-  taken_.pressed.push_back({change.key, io.KeyCtrl, io.KeyShift});
+  taken_.pressed.push_back({change.key, io.KeyCtrl, io.KeyShift, io.KeyAlt});
   if (flies(change.key) && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper) held_.insert(change.key);
 }
 

@@ -24,7 +24,9 @@ constexpr int kLeft = 0, kMiddle = 2; // of ImGui's buttons
 
 } // namespace
 
-vec3 Viewer::pivot() const {
+vec3 Viewer::pivot() {
+  if (const auto corners = selection_box_.corners(state_.document.scene, state_.selection))
+    return bounds_of(*corners).center();
   const Camera& camera = state_.document.scene.camera;
   return camera.position +
          camera.effective_focus_distance() * glm::normalize(camera.target - camera.position);
@@ -53,18 +55,28 @@ void Viewer::use_mouse_on_picture() {
   if (gesture_ == Gesture::none) return;
   if (glm::length(mouse - press_position_) > kClickSlack * state_.scale) dragged_ = true;
   if (dragged_ && mouse != drag_position_) {
-    drag(mouse - drag_position_);
+    drag(mouse - drag_position_, mouse);
     drag_position_ = mouse;
   }
   if (io.MouseDown[gesture_button_]) return;
   const Gesture ended = std::exchange(gesture_, Gesture::none);
-  if (!dragged_ && ended == Gesture::look) focus_at(mouse);
+  gizmo_drag_.reset();
+  if (ended == Gesture::region) end_region(mouse);
+  if (dragged_ || ended != Gesture::look) return;
+  if (io.KeyCtrl)
+    focus_at(mouse);
+  else
+    select_at(mouse);
 }
 
 void Viewer::begin_gesture(int button, vec2 mouse) {
   const ImGuiIO& io = ImGui::GetIO();
   const bool around = button == kMiddle || io.KeyAlt; // Alt stands in for a missing middle button
-  if (!around)
+  if (button == kLeft && state_.region_armed)
+    gesture_ = Gesture::region;
+  else if (!around && begin_gizmo_drag(mouse))
+    gesture_ = Gesture::gizmo;
+  else if (!around)
     gesture_ = Gesture::look;
   else
     gesture_ = io.KeyShift ? Gesture::pan : io.KeyCtrl ? Gesture::zoom : Gesture::orbit;
@@ -74,13 +86,15 @@ void Viewer::begin_gesture(int button, vec2 mouse) {
   gesture_pivot_ = pivot();
 }
 
-void Viewer::drag(vec2 moved) {
+void Viewer::drag(vec2 moved, vec2 mouse) {
   const Camera& camera = state_.document.scene.camera;
   const auto view = projection();
   if (!view) return;
   const PixelRect& picture = view->picture();
   switch (gesture_) {
-  case Gesture::none: break;
+  case Gesture::none:
+  case Gesture::region: break;
+  case Gesture::gizmo: drag_gizmo(mouse); break;
   case Gesture::look: {
     const vec2 turn = radians_per_pixel(camera, picture.height) * moved;
     set_camera(turned_camera(camera, -turn.x, -turn.y));
@@ -120,12 +134,10 @@ void Viewer::turn_wheel(float notches) {
 }
 
 void Viewer::focus_at(vec2 screen_position) {
-  if (!state_.picture) return;
-  const PixelRect rect = picture_rect();
-  const vec2 film(state_.picture->width, state_.picture->height);
-  const vec2 inside = (screen_position + 0.5f - vec2(rect.x, rect.y)) / vec2(rect.width, rect.height);
-  if (inside.x < 0 || inside.y < 0 || inside.x >= 1 || inside.y >= 1) return; // on the frame around it
-  const std::optional<Pick> found = session_->pick(inside * film);
+  const auto screen = projection();
+  const auto film = screen ? screen->film_position(screen_position) : std::nullopt;
+  if (!film) return; // on the frame around it
+  const std::optional<Pick> found = session_->pick(*film);
   if (!found || !(found->view_depth > 0)) {
     notify("There is nothing to focus on there");
     return;
@@ -133,7 +145,6 @@ void Viewer::focus_at(vec2 screen_position) {
   const auto& materials = state_.document.scene.materials;
   std::string on;
   if (found->material >= 0 && static_cast<std::size_t>(found->material) < materials.size()) {
-    state_.selected_material = found->material;
     const std::string& name = materials[static_cast<std::size_t>(found->material)].name;
     if (!name.empty()) on = fmt::format(" on {}", name);
   }
@@ -147,9 +158,38 @@ void Viewer::focus_at(vec2 screen_position) {
                                                   "aperture radius"));
 }
 
+void Viewer::end_region(vec2 mouse) {
+  state_.region_armed = false;
+  const PixelRect picture = picture_rect();
+  const vec2 origin(picture.x, picture.y), size(picture.width, picture.height);
+  const vec2 a = glm::clamp((press_position_ - origin) / size, 0.0f, 1.0f);
+  const vec2 b = glm::clamp((mouse - origin) / size, 0.0f, 1.0f);
+  const PictureRegion region{glm::min(a, b), glm::max(a, b)};
+  state_.region.reset(); // a click, or a drag beside the picture, gives the whole back
+  if (dragged_ && region.lo.x < region.hi.x && region.lo.y < region.hi.y) state_.region = region;
+}
+
+void Viewer::send_region() {
+  CropWindow window;
+  if (state_.region) {
+    const FilmSettings& film = state_.document.settings.film;
+    const vec2 size(film.width, film.height);
+    const ivec2 lo(glm::floor(state_.region->lo * size)), hi(glm::ceil(state_.region->hi * size));
+    window = {lo.x, lo.y, hi.x - lo.x, hi.y - lo.y};
+  }
+  if (window == sent_region_) return;
+  session_->set_region(sent_region_ = window);
+}
+
 void Viewer::frame_selection() {
   const PixelRect rect = picture_rect();
-  set_camera(framing_camera(state_.document.scene.camera, state_.bounds,
+  Bounds3 bounds = state_.bounds;
+  if (const auto corners = selection_box_.corners(state_.document.scene, state_.selection)) {
+    bounds = bounds_of(*corners);
+    const vec3 room(0.1f * state_.natural_speed); // a light is a point
+    if (state_.selection.kind == Selection::Kind::light) bounds = {bounds.lo - room, bounds.hi + room};
+  }
+  set_camera(framing_camera(state_.document.scene.camera, bounds,
                             static_cast<float>(rect.width) / static_cast<float>(rect.height)));
 }
 

@@ -2,6 +2,8 @@
 
 #include "app/viewer.h"
 
+#include <imgui.h>
+
 namespace candela {
 
 namespace {
@@ -42,6 +44,10 @@ void Viewer::run_control_shortcut(const KeyPress& press) {
   case Key::s: state_.save_requested = true; break;
   case Key::z: (press.shift ? state_.redo_requested : state_.undo_requested) = true; break;
   case Key::y: state_.redo_requested = true; break;
+  case Key::b:
+    state_.region_armed = !press.alt;
+    if (press.alt) state_.region.reset();
+    break;
   case Key::equal: text_zoom_ = std::min(text_zoom_ * kTextZoomStep, kMaxTextZoom); break;
   case Key::minus: text_zoom_ = std::max(text_zoom_ / kTextZoomStep, kMinTextZoom); break;
   case Key::digit_0:
@@ -63,14 +69,29 @@ void Viewer::run_plain_shortcut(Key key) {
   case Key::k:
   case Key::pause: state_.paused = !state_.paused; break;
   case Key::l: state_.step_requested = true; break;
-  case Key::escape:
-    if (state_.help_visible)
-      state_.help_visible = false;
-    else
-      state_.error.clear();
-    break;
+  case Key::f: focus_at({ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y}); break;
+  case Key::v: state_.tool = Tool::select; break;
+  case Key::g: state_.tool = Tool::move; break;
+  case Key::r: state_.tool = Tool::rotate; break;
+  case Key::t: state_.tool = Tool::scale; break;
+  case Key::m: state_.overlays_visible = !state_.overlays_visible; break;
+  case Key::escape: escape(); break;
   default: break;
   }
+}
+
+/// Ends the innermost thing that goes on.
+void Viewer::escape() {
+  if (gesture_ != Gesture::none)
+    cancel_gesture();
+  else if (state_.region_armed)
+    state_.region_armed = false;
+  else if (state_.help_visible)
+    state_.help_visible = false;
+  else if (!state_.error.empty())
+    state_.error.clear();
+  else
+    state_.selection = {};
 }
 
 } // namespace candela

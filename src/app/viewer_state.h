@@ -1,8 +1,11 @@
 #pragma once
 // What the panels look at and change. They only ask (open this, save that); the Viewer does.
 
-#include "app/orbit_camera.h"
+#include "app/gizmo.h"
 #include "app/inspect_state.h"
+#include "app/orbit_camera.h"
+#include "app/selection.h"
+#include "app/transform_parts.h"
 #include "core/bounds.h"
 #include "session/render_session.h"
 
@@ -13,6 +16,12 @@
 #include <vector>
 
 namespace candela {
+
+/// A part of the picture: its corners in [0, 1]^2 from the top left, so that it outlives the film's size.
+struct PictureRegion {
+  vec2 lo{0}, hi{1};
+  bool operator==(const PictureRegion&) const = default;
+};
 
 struct ViewerState {
   Document document;   ///< what the user sees and edits
@@ -45,6 +54,15 @@ struct ViewerState {
   int selected_material = 0;
   int selected_light = 0; ///< lights first, then emissive materials
 
+  Selection selection;
+  bool reveal_selection = false; ///< the lists scroll to it once
+  Tool tool = Tool::select;
+  std::optional<TransformParts> typed_transform; ///< of the selected object, as its fields show it
+  bool objects_moving = false;                   ///< geometry changes from frame to frame: build it fast
+  bool overlays_visible = true;                  ///< the selection's box and the lights, over the picture
+  std::optional<PictureRegion> region;           ///< only this accumulates
+  bool region_armed = false;                     ///< the next drag over the picture sets it
+
   bool paused = false;   ///< the user's wish; `status` tells what is
   std::string undo_name; ///< of the edit that would be undone; empty: none
   std::string redo_name;
@@ -60,7 +78,8 @@ struct ViewerState {
   bool step_requested = false;
   std::optional<AxisView> axis_view_requested;
   bool projection_requested = false; ///< perspective or orthographic, whichever it is not
-  bool frame_requested = false;      ///< the selection, or the scene, into the picture
+  std::optional<Selection> select_requested;
+  bool frame_requested = false; ///< the selection, or the scene, into the picture
 };
 
 /// Name of the scene's file without its folder, or "Cornell box" for the built-in one.

@@ -96,8 +96,6 @@ int SceneBuilder::missing_material(const MeshFile& file, std::size_t slot, const
   return default_material();
 }
 
-namespace {
-
 Bounds3 object_bounds(const Shape& shape) {
   Bounds3 box;
   if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape)) {
@@ -109,8 +107,6 @@ Bounds3 object_bounds(const Shape& shape) {
   }
   return box;
 }
-
-} // namespace
 
 Bounds3 scene_bounds(const SceneDesc& scene) {
   std::map<const Mesh*, Bounds3> meshes; // shared ones are looked through once

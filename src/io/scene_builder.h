@@ -68,6 +68,9 @@ int add_mtl_material(SceneBuilder& builder, const MtlMaterial& material, const s
 /// Bounds of all shapes, in world space (of their boxes' corners: an upper bound).
 Bounds3 scene_bounds(const SceneDesc& scene);
 
+/// Of a shape alone, in its own space.
+Bounds3 object_bounds(const Shape& shape);
+
 /// Whether anything shines: a light, or an instance with an emitting material.
 bool has_light(const SceneDesc& scene);
 

@@ -21,6 +21,7 @@ struct SampleRange {
 
 struct CropWindow { ///< pixels; empty width or height: the whole film
   int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const CropWindow&) const = default;
 };
 
 struct PassOptions {

@@ -273,6 +273,7 @@ public:
     unfold("group.override", "override.brdf");
     unfold("group.ao", "ao.distance");
     unfold("group.adaptive", "adaptive.error");
+    unfold("panel.objects", "objects/0");
     unfold("panel.materials", "material.type");
     if (!find("light.type") && !find("emitter.emission.r")) click("panel.lights");
     unfold("panel.scenes", "scene.path");

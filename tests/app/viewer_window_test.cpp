@@ -298,6 +298,7 @@ TEST(ViewerWindowUi, NothingIsCutOff) {
     Document document = test_document();
     document.settings.stop.spp = 1;
     ViewerHarness hand(document, {.size = size, .scale = scale});
+    hand.wait_for_picture(300); // rows that tell of it appear with it
     hand.unfold_all();
     hand.frame(2);
     for (const WidgetRecord& widget : hand.viewer.widgets()) {
