@@ -133,6 +133,35 @@ TEST_F(CliTest, StatsHaveWhatIsPromised) {
   EXPECT_EQ(j["settings"]["film.width"], "20");
 }
 
+TEST_F(CliTest, WritesOtherViewsBesideTheOutput) {
+  Outcome o = run("render " + scene +
+                  " --size 16x12 --spp 2 -o a.exr -o a.png --aov normal --aov samples --aov direct "
+                  "--aov indirect --aov emitted --quiet");
+  ASSERT_EQ(o.code, 0) << o.err;
+  for (const char* name : {"normal", "samples", "direct", "indirect", "emitted"})
+    for (const char* ending : {"exr", "png"})
+      EXPECT_TRUE(std::filesystem::exists(path(fmt::format("a.{}.{}", name, ending)))) << name;
+  Image whole = read_image(path("a.exr")), samples = read_image(path("a.samples.exr"));
+  EXPECT_EQ(samples.at(3, 4), vec3(2));
+  Image direct = read_image(path("a.direct.exr")), indirect = read_image(path("a.indirect.exr")),
+        emitted = read_image(path("a.emitted.exr"));
+  for (std::size_t i = 0; i < whole.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(emitted.pixels[i][c] + direct.pixels[i][c] + indirect.pixels[i][c], whole.pixels[i][c],
+                  1e-5f * (1 + whole.pixels[i][c]));
+  o = run("render " + scene + " -o b.png --aov normals");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("geometric_normal"), std::string::npos) << o.err;
+}
+
+TEST_F(CliTest, StopsAtANoiseLevel) {
+  Outcome o = run("render " + scene + " --size 32x32 --noise 0.3 -o a.exr --stats s.json --quiet");
+  ASSERT_EQ(o.code, 0) << o.err;
+  auto stats = nlohmann::json::parse(file_text(path("s.json")));
+  EXPECT_LE(stats["noise"].get<double>(), 0.3);
+  EXPECT_EQ(stats["spp"].get<int>() % 8, 0);
+}
+
 TEST_F(CliTest, ComparesWithAReference) {
   ASSERT_EQ(run(fmt::format("render '{}' --size 16x16 --spp 1 -o ref.exr", scene)).code, 0);
   Outcome same = run(fmt::format("render '{}' --size 16x16 --spp 1 -o a.exr --reference ref.exr", scene));
