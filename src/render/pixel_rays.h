@@ -2,16 +2,22 @@
 // The camera ray of a pixel's sample, for all who trace it: the image and what is gathered beside it.
 
 #include "render/camera_rays.h"
+#include "sampling/filter.h"
 #include "sampling/sampler.h"
 #include "scene/document.h"
 
 namespace candela {
 
+struct PixelRay {
+  Ray ray;
+  float weight; ///< of what the ray brings, for the pixel's mean (FilterSample::weight)
+};
+
 class PixelRays {
 public:
   explicit PixelRays(const Document& document)
-      : film_(document.settings.film), camera_(document.scene.camera, film_.width, film_.height),
-        gaussian_(film_.filter_radius / 3, film_.filter_radius) {}
+      : camera_(document.scene.camera, document.settings.film.width, document.settings.film.height),
+        filter_(document.settings.film.filter, document.settings.film.filter_radius) {}
 
   const CameraRays& camera() const { return camera_; }
 
@@ -21,20 +27,16 @@ public:
   }
 
   /// Starts the sampler at the sample and draws its place in the pixel's filter and on the lens.
-  Ray start(uvec2 pixel, std::uint32_t sample, Sampler& sampler) const {
+  PixelRay start(uvec2 pixel, std::uint32_t sample, Sampler& sampler) const {
     sampler.start(pixel, sample);
-    vec2 u = sampler.get_2d(Dimension::film);
-    float radius = film_.filter_radius;
-    vec2 offset = film_.filter == FilterType::box ? vec2(sample_box(u.x, radius), sample_box(u.y, radius))
-                                                  : vec2(gaussian_.sample(u.x), gaussian_.sample(u.y));
+    FilterSample filter = filter_.sample(sampler.get_2d(Dimension::film));
     vec2 lens = camera_.has_lens() ? sampler.get_2d(Dimension::lens) : vec2(0);
-    return camera_.ray(vec2(pixel) + 0.5f + offset, lens);
+    return {camera_.ray(vec2(pixel) + 0.5f + filter.offset, lens), filter.weight};
   }
 
 private:
-  FilmSettings film_;
   CameraRays camera_;
-  TruncatedGaussian gaussian_;
+  PixelFilter filter_;
 };
 
 } // namespace candela

@@ -1,11 +1,10 @@
 #include "render/render_pass.h"
 
 #include "render/ao_integrator.h"
-#include "render/camera_rays.h"
 #include "render/first_hit_view.h"
 #include "render/path_integrator.h"
+#include "render/pixel_rays.h"
 #include "render/whitted_integrator.h"
-#include "sampling/filter.h"
 
 #include <omp.h>
 
@@ -38,11 +37,8 @@ PathSample ambient_occlusion_sample(const RenderScene& scene, const Ray& ray, Sa
 class PixelSampler {
 public:
   PixelSampler(const RenderScene& scene, const Document& document)
-      : scene_(scene), settings_(document.settings), view_(accumulated_view(settings_.view)),
-        camera_(document.scene.camera, settings_.film.width, settings_.film.height),
-        sampler_(settings_.sampler.type, static_cast<std::uint64_t>(settings_.sampler.seed),
-                 settings_.sampler.strata),
-        filter_(settings_.film.filter, settings_.film.filter_radius) {}
+      : scene_(scene), settings_(document.settings), view_(accumulated_view(settings_.view)), rays_(document),
+        sampler_(PixelRays::sampler(settings_.sampler)) {}
 
   PixelSample sample(uvec2 pixel, std::uint32_t index, RayCounts& counts) {
     return sample(pixel, index, counts, settings_);
@@ -62,14 +58,11 @@ public:
 
 private:
   PixelSample sample(uvec2 pixel, std::uint32_t index, RayCounts& counts, const RenderSettings& settings) {
-    sampler_.start(pixel, index);
-    FilterSample filter = filter_.sample(sampler_.get_2d(Dimension::film));
-    vec2 lens = camera_.has_lens() ? sampler_.get_2d(Dimension::lens) : vec2(0);
-    Ray ray = camera_.ray(vec2(pixel) + 0.5f + filter.offset, lens);
+    PixelRay start = rays_.start(pixel, index, sampler_);
     ++counts.samples;
-    PixelSample result = along(ray, settings, counts);
-    result.value *= filter.weight;
-    result.parts *= filter.weight;
+    PixelSample result = along(start.ray, settings, counts);
+    result.value *= start.weight;
+    result.parts *= start.weight;
     return result;
   }
 
@@ -77,7 +70,7 @@ private:
   PixelSample along(const Ray& ray, const RenderSettings& settings, RayCounts& counts) {
     PixelSample result;
     if (view_ != View::radiance && view_ != View::depth_share && view_ != View::light_share) {
-      result.value = first_hit_value(scene_, ray, camera_.forward(), view_, sampler_, counts);
+      result.value = first_hit_value(scene_, ray, rays_.camera().forward(), view_, sampler_, counts);
       return result;
     }
     PathSample& parts = result.parts = estimate(ray, settings, counts);
@@ -113,9 +106,8 @@ private:
   const RenderScene& scene_;
   const RenderSettings& settings_;
   View view_;
-  CameraRays camera_;
+  PixelRays rays_;
   Sampler sampler_;
-  PixelFilter filter_;
 };
 
 struct Window {

@@ -30,8 +30,9 @@ constexpr double kPublishShare = 0.05;
 
 } // namespace
 
-// Two threads: `renderer` turns Documents into Frames, `presenter` turns Frames into DisplayImages. The mutex
-// guards pointers and small values and is never held while either of them works.
+// Three threads: `renderer` turns Documents into Frames, `denoiser` turns snapshots of the film into
+// DenoisedImages, `presenter` turns either into DisplayImages. The mutex guards pointers and small values and
+// is never held while one of them works.
 struct RenderSession::State {
   explicit State(SessionOptions o) : options(std::move(o)) {
     renderer = std::jthread([this] { render_loop(); });
@@ -72,6 +73,7 @@ struct RenderSession::State {
   Clock::time_point first_image_submitted;  ///< when that was submitted
   std::shared_ptr<const RenderScene> scene; ///< newest built, with its document, for picking
   std::shared_ptr<const Document> scene_document;
+  std::shared_ptr<const DenoisedImage> denoised; ///< newest, of any accumulation
 
   // The render thread's own.
   Document current;
@@ -91,7 +93,10 @@ struct RenderSession::State {
   double seconds_per_sample = 0; ///< of one pixel
   double publish_cost = 0;
   Clock::time_point published_at;
+  std::uint64_t denoised_samples = 0; ///< in the newest snapshot for the denoiser; 0: there is none
 
+  DenoiseThread denoiser{
+      options.threads, [this](std::shared_ptr<const DenoisedImage> made) { show_denoised(std::move(made)); }};
   std::jthread renderer, presenter; // last: they are joined before the rest goes
 
   void render_loop();
@@ -105,6 +110,10 @@ struct RenderSession::State {
   bool take_step();
   void step();
   void publish(bool force);
+  void feed_denoiser(bool settled);
+  void show_denoised(std::shared_ptr<const DenoisedImage> made);
+  /// The denoised image that belongs to the newest frame, if it is to be shown. The mutex must be held.
+  std::shared_ptr<const DenoisedImage> denoised_to_show() const;
   void present_loop();
 };
 
@@ -130,7 +139,9 @@ void RenderSession::State::render_loop() {
       if (!finished() && goes_on()) step();
       if (spp > 0 && published_view != current.settings.view) publish(true); // of the same samples
       active = !finished();
-      if ((!active || !goes_on()) && published_spp != spp) publish(true);
+      const bool settled = !active || !goes_on();
+      if (settled && published_spp != spp) publish(true);
+      feed_denoiser(settled);
       std::lock_guard lock(mutex);
       if (active)
         status.phase = may_go_on() ? SessionPhase::rendering : SessionPhase::paused;
@@ -148,8 +159,8 @@ void RenderSession::State::render_loop() {
       active = false;
     }
     changed.notify_all();
-    const bool settled = !active || (status.phase == SessionPhase::paused && status.phase != before);
-    if (settled && options.on_publish) options.on_publish(); // the phase is news, too
+    const bool rests = !active || (status.phase == SessionPhase::paused && status.phase != before);
+    if (rests && options.on_publish) options.on_publish(); // the phase is news, too
   }
 }
 
@@ -240,6 +251,7 @@ void RenderSession::State::restart() {
   converged = false;
   noise = std::numeric_limits<double>::infinity();
   published_spp = -1;
+  denoised_samples = 0;
   seconds_per_sample = 0;
 }
 
@@ -338,29 +350,68 @@ void RenderSession::State::publish(bool force) {
   changed.notify_all();
 }
 
+/// Takes a snapshot for the denoiser whenever the samples have doubled, which costs the render thread ever
+/// less, and when no more come.
+void RenderSession::State::feed_denoiser(bool settled) {
+  if (!current.settings.display.denoise || current.settings.view != View::radiance || spp < 2) return;
+  const bool due = rays.samples >= 2 * denoised_samples || (settled && rays.samples != denoised_samples);
+  if (!due) return;
+  auto job = std::make_unique<DenoiseJob>();
+  job->accumulation = accumulation;
+  job->samples = rays.samples;
+  job->spp = spp;
+  job->color = noisy_image(film);
+  std::unique_ptr<DenoiseJob> replaced;
+  std::lock_guard lock(mutex);
+  if (pending && pending_worst >= Invalidates::image) return; // it is out of date already
+  job->scene = scene;
+  job->document = scene_document;
+  replaced = denoiser.post(std::move(job));
+  denoised_samples = rays.samples;
+}
+
+void RenderSession::State::show_denoised(std::shared_ptr<const DenoisedImage> made) {
+  {
+    std::lock_guard lock(mutex);
+    denoised = std::move(made);
+  }
+  changed.notify_all();
+}
+
+std::shared_ptr<const DenoisedImage> RenderSession::State::denoised_to_show() const {
+  const bool fits = newest.settings.display.denoise && frame && frame->view == View::radiance && denoised &&
+                    denoised->accumulation == frame->generation;
+  return fits ? denoised : nullptr;
+}
+
 void RenderSession::State::present_loop() {
   while (true) {
     std::shared_ptr<const Frame> source;
+    std::shared_ptr<const DenoisedImage> clean;
     DisplaySettings display;
     {
       std::unique_lock lock(mutex);
       changed.wait(lock, [&] {
         return quit || (frame &&
-                        (!picture || picture->frame != frame || picture->display != newest.settings.display));
+                        (!picture || picture->frame != frame || picture->display != newest.settings.display ||
+                         picture->denoised != denoised_to_show()));
       });
       if (quit) return;
       source = frame;
+      clean = denoised_to_show();
       display = newest.settings.display;
     }
     auto made = std::make_shared<DisplayImage>();
+    const std::vector<vec3>& linear = clean ? clean->linear : source->linear;
     made->frame = source;
+    made->denoised = clean;
     made->display = display;
     made->width = source->width;
     made->height = source->height;
-    made->rgba.resize(4 * source->linear.size());
-    made->transform = display_transform(source->linear, source->width, source->height, display, source->view,
+    made->rgba.resize(4 * linear.size());
+    made->transform = display_transform(linear, source->width, source->height, display, source->view,
                                         source->display_scale);
-    display_rgba8(source->linear, made->transform, made->rgba);
+    display_rgba8(linear, made->transform, made->rgba);
     {
       std::lock_guard lock(mutex);
       picture = std::move(made);
@@ -380,6 +431,7 @@ RenderSession::~RenderSession() = default;
 std::uint64_t RenderSession::submit(Document document, BuildQuality quality) {
   State& s = *state_;
   std::uint64_t generation;
+  std::unique_ptr<DenoiseJob> dropped;
   {
     std::lock_guard lock(s.mutex);
     Invalidates consequence =
@@ -392,6 +444,7 @@ std::uint64_t RenderSession::submit(Document document, BuildQuality quality) {
     if (consequence >= Invalidates::image) {
       s.submitted_at = Clock::now();
       s.stop = true;
+      dropped = s.denoiser.cancel();
     }
     generation = ++s.status.submitted;
   }
@@ -463,8 +516,13 @@ bool RenderSession::wait_finished(double seconds) const {
     if (s.region_changed || (s.paused && s.steps_wanted > 0)) return false;
     const bool still =
         s.status.phase == SessionPhase::finished || (s.status.phase == SessionPhase::paused && s.paused);
-    return still && s.picture && s.picture->frame == s.frame &&
-           s.picture->display == s.newest.settings.display;
+    if (!still || !s.picture || s.picture->frame != s.frame ||
+        s.picture->display != s.newest.settings.display)
+      return false;
+    if (!s.newest.settings.display.denoise || s.frame->view != View::radiance || s.frame->spp < 2)
+      return true;
+    return s.picture->denoised && s.picture->denoised->accumulation == s.frame->generation &&
+           s.picture->denoised->samples == s.status.rays.samples;
   });
 }
 

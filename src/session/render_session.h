@@ -7,6 +7,7 @@
 #include "render/picking.h"
 #include "render/render_pass.h"
 #include "render/render_scene.h"
+#include "session/denoise_thread.h"
 
 #include <functional>
 #include <memory>
@@ -34,9 +35,10 @@ struct SessionStatus {
 
 /// A tone-mapped picture, ready for glTexImage2D as RGBA8.
 struct DisplayImage {
-  std::shared_ptr<const Frame> frame; ///< what it was made from
-  DisplaySettings display;            ///< and how
-  DisplayTransform transform;         ///< what they came to for this frame
+  std::shared_ptr<const Frame> frame;            ///< what it was made from ...
+  std::shared_ptr<const DenoisedImage> denoised; ///< ... or this one of the same accumulation, if not null
+  DisplaySettings display;                       ///< and how
+  DisplayTransform transform;                    ///< what they came to for this frame
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgba; ///< row 0 is the top

@@ -1,0 +1,20 @@
+#pragma once
+// From a film to its denoised image.
+
+#include "render/denoiser.h"
+#include "render/feature_film.h"
+#include "render/film.h"
+
+namespace candela {
+
+/// The film's means in halves. A pixel of one sample has that in both, and a variance to match.
+NoisyImage noisy_image(const Film& film);
+
+/// Denoises an image of the document that has `spp` samples a pixel, at least two. `features` are gathered as
+/// far as they are worth it; those of earlier calls for the same accumulation are kept. Nothing where it was
+/// stopped.
+std::optional<Image> denoise_render(NoisyImage color, int spp, const RenderScene& scene,
+                                    const Document& document, FeatureFilm& features,
+                                    const DenoiseOptions& options = {});
+
+} // namespace candela

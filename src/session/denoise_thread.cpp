@@ -1,0 +1,85 @@
+#include "session/denoise_thread.h"
+
+#include <new>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace candela {
+
+namespace {
+
+/// Rendering (10) comes first, but a picture that waited for an idle machine would come too late to be of
+/// use: this is some 40 % of a core beside a busy render thread.
+constexpr int kNiceness = 12;
+
+} // namespace
+
+DenoiseThread::DenoiseThread(int threads, std::function<void(std::shared_ptr<const DenoisedImage>)> done)
+    : threads_(threads), done_(std::move(done)), thread_([this] { run(); }) {}
+
+DenoiseThread::~DenoiseThread() {
+  {
+    std::lock_guard lock(mutex_);
+    quit_ = true;
+    stop_ = true;
+  }
+  posted_.notify_one();
+  thread_.join();
+}
+
+std::unique_ptr<DenoiseJob> DenoiseThread::post(std::unique_ptr<DenoiseJob> job) {
+  {
+    std::lock_guard lock(mutex_);
+    waiting_.swap(job);
+  }
+  posted_.notify_one();
+  return job;
+}
+
+std::unique_ptr<DenoiseJob> DenoiseThread::cancel() {
+  std::lock_guard lock(mutex_);
+  stop_ = true;
+  return std::move(waiting_);
+}
+
+void DenoiseThread::run() {
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness); // its OpenMP team inherits it
+  FeatureFilm features;
+  std::uint64_t features_of = 0; // accumulation
+  for (;;) {
+    std::unique_ptr<DenoiseJob> job;
+    {
+      std::unique_lock lock(mutex_);
+      posted_.wait(lock, [this] { return quit_ || waiting_; });
+      if (quit_) return;
+      job = std::move(waiting_);
+      stop_ = false;
+    }
+    try {
+      const int width = job->color.variance.width, height = job->color.variance.height;
+      if (features_of != job->accumulation) {
+        features = FeatureFilm(width, height);
+        features_of = job->accumulation;
+      }
+      auto image = denoise_render(std::move(job->color), job->spp, *job->scene, *job->document, features,
+                                  {threads_, &stop_});
+      if (!image) {
+        features_of = 0; // they may be incomplete
+        continue;
+      }
+      auto made = std::make_shared<DenoisedImage>();
+      made->accumulation = job->accumulation;
+      made->samples = job->samples;
+      made->spp = job->spp;
+      made->width = width;
+      made->height = height;
+      made->linear = std::move(image->pixels);
+      done_(std::move(made));
+    } catch (const std::bad_alloc&) { // the noisy picture stays, which is what there is memory for
+      features = FeatureFilm();
+      features_of = 0;
+    }
+  }
+}
+
+} // namespace candela

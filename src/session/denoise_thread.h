@@ -1,0 +1,60 @@
+#pragma once
+// The third thread of a session: it denoises snapshots of the accumulation while that goes on.
+
+#include "render/denoise_film.h"
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace candela {
+
+/// What is known of an accumulation, to be denoised.
+struct DenoiseJob {
+  std::uint64_t accumulation = 0; ///< Frame::generation of its frames
+  std::uint64_t samples = 0;      ///< camera paths that are in it
+  int spp = 0;
+  NoisyImage color;
+  std::shared_ptr<const RenderScene> scene;
+  std::shared_ptr<const Document> document;
+};
+
+struct DenoisedImage {
+  std::uint64_t accumulation = 0;
+  std::uint64_t samples = 0;
+  int spp = 0;
+  int width = 0, height = 0;
+  std::vector<vec3> linear; ///< row 0 is the top
+};
+
+class DenoiseThread {
+public:
+  /// `done` is called from the thread with every image that was not cancelled.
+  DenoiseThread(int threads, std::function<void(std::shared_ptr<const DenoisedImage>)> done);
+  ~DenoiseThread(); ///< cancels and joins
+  DenoiseThread(const DenoiseThread&) = delete;
+  DenoiseThread& operator=(const DenoiseThread&) = delete;
+
+  /// Hands in a job; it replaces one that was not begun. The one in work goes on, so that there is something
+  /// to see while samples come in faster than they can be denoised. Returns the one that was replaced, so
+  /// that its memory need not be freed under a lock.
+  std::unique_ptr<DenoiseJob> post(std::unique_ptr<DenoiseJob> job);
+  /// Drops the job in work and the one that waits, which is returned.
+  std::unique_ptr<DenoiseJob> cancel();
+
+private:
+  void run();
+
+  int threads_;
+  std::function<void(std::shared_ptr<const DenoisedImage>)> done_;
+  std::mutex mutex_; // held for moves of pointers only
+  std::condition_variable posted_;
+  std::unique_ptr<DenoiseJob> waiting_;
+  bool quit_ = false;
+  std::atomic<bool> stop_{false}; ///< the job in work is out of date
+  std::thread thread_;
+};
+
+} // namespace candela
