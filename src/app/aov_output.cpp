@@ -57,7 +57,7 @@ std::vector<std::string> write_aovs(const std::vector<Aov>& aovs, const std::vec
     for (const std::string& output : outputs) {
       paths.push_back(aov_path(output, aov.name));
       write_picture(picture.image, paths.back(), document.settings.display, aov.view, picture.display_scale,
-                    rendered.spp);
+                    picture_metadata(rendered.spp, false));
     }
   }
   return paths;

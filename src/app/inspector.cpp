@@ -95,8 +95,8 @@ void Inspector::update(ViewerState& state, const RenderSession& session, const P
   if (inspect.histogram_open && state.picture && state.picture != inspect.histogram_of && !counting_) {
     counting_ = true;
     worker_.post([this, &inspect, picture_shown = state.picture]() -> TaskThread::Completion {
-      auto made = std::make_shared<const LogHistogram>(
-          log_histogram(picture_shown->frame->linear, picture_shown->rgba));
+      auto made =
+          std::make_shared<const LogHistogram>(log_histogram(picture_shown->linear(), picture_shown->rgba));
       return [this, &inspect, made, picture_shown] {
         inspect.histogram = made;
         inspect.histogram_of = picture_shown;

@@ -34,6 +34,9 @@ void error_strip(Ui& ui, ViewerState& state, vec2 position, float width);
 /// Every key, over the picture.
 void help_overlay(Ui& ui, ViewerState& state, vec2 center, vec2 room);
 
+/// Says over the picture what about it is not as it was rendered.
+void picture_label(Ui& ui, const ViewerState& state, vec2 top_left);
+
 /// One line over the picture: the hint of the first seconds, or a notice while the status line is hidden.
 void floating_line(Ui& ui, const char* name, std::string_view text, vec2 bottom_center);
 

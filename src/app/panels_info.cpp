@@ -140,6 +140,10 @@ void status_line(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
       talk = fmt::format("loading {} …", std::filesystem::path(state.loading_path).filename().string());
     else if (talk.empty())
       talk = scene_title(state);
+    if (state.picture && state.picture->denoised)
+      talk += "    " + denoised_text(*state.picture->denoised);
+    else if (state.document.settings.display.denoise && state.document.settings.view == View::radiance)
+      talk += "    denoising …";
     cell(talk, 0);
     const char* keys = "F1 help    Tab panels";
     const float width = ImGui::CalcTextSize(keys).x;

@@ -94,6 +94,20 @@ void help_overlay(Ui& ui, ViewerState& state, vec2 center, vec2 room) {
   ImGui::PopStyleVar(2);
 }
 
+void picture_label(Ui& ui, const ViewerState& state, vec2 top_left) {
+  if (!state.picture || !state.picture->denoised) return;
+  ImGui::SetNextWindowPos(ImVec2(top_left.x + 12 * ui.scale(), top_left.y + 12 * ui.scale()));
+  ImGui::SetNextWindowBgAlpha(0.6f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * ui.scale());
+  if (ImGui::Begin("##label", nullptr,
+                   kOverlay | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
+    ImGui::TextUnformatted(denoised_text(*state.picture->denoised).c_str());
+    ui.record("picture.denoised");
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
 void floating_line(Ui& ui, const char* name, std::string_view text, vec2 bottom_center) {
   ImGui::SetNextWindowPos(ImVec2(bottom_center.x, bottom_center.y - 12 * ui.scale()), ImGuiCond_Always,
                           ImVec2(0.5f, 1));

@@ -1,7 +1,8 @@
 #include "app/picture_output.h"
 
-#include "io/image_file.h"
 #include "render/display_transform.h"
+
+#include <fmt/format.h>
 
 namespace candela {
 
@@ -21,14 +22,19 @@ Image cropped(Image image, const CropWindow& crop) {
   return out;
 }
 
+ImageMetadata picture_metadata(int spp, bool denoised) {
+  ImageMetadata metadata{{"candela.version", CANDELA_VERSION}, {"candela.spp", std::to_string(spp)}};
+  if (denoised) metadata["candela.denoised"] = fmt::format("of {} samples a pixel", spp);
+  return metadata;
+}
+
 void write_picture(const Image& image, const std::string& path, const DisplaySettings& display, View view,
-                   float display_scale, int spp) {
-  if (is_linear_format(image_format_of(path))) {
-    write_linear_image(image, path,
-                       {{"candela.version", CANDELA_VERSION}, {"candela.spp", std::to_string(spp)}});
-    return;
-  }
-  write_srgb8_image(image.width, image.height, displayed_srgb8(image, display, view, display_scale), path);
+                   float display_scale, const ImageMetadata& metadata) {
+  if (is_linear_format(image_format_of(path)))
+    write_linear_image(image, path, metadata);
+  else
+    write_srgb8_image(image.width, image.height, displayed_srgb8(image, display, view, display_scale), path,
+                      metadata);
 }
 
 } // namespace candela

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/image_file.h"
 #include "render/render_pass.h"
 
 namespace candela {
@@ -11,10 +12,13 @@ std::vector<std::uint8_t> displayed_srgb8(const Image& image, const DisplaySetti
 /// The part of the image in the window.
 Image cropped(Image image, const CropWindow& crop);
 
+/// What a picture tells of itself: the program's version, the samples a pixel, and whether it was denoised.
+ImageMetadata picture_metadata(int spp, bool denoised);
+
 /// Writes a rendered picture in the format of the path's ending: tone-mapped (PNG, JPG, PPM), exactly as the
 /// window shows it, or linear (EXR, HDR, PFM). `view` says what the image holds, `display_scale` is
 /// Frame::display_scale.
 void write_picture(const Image& image, const std::string& path, const DisplaySettings& display, View view,
-                   float display_scale, int spp);
+                   float display_scale, const ImageMetadata& metadata);
 
 } // namespace candela

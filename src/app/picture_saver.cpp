@@ -1,5 +1,6 @@
 #include "app/picture_saver.h"
 
+#include "app/picture_output.h"
 #include "core/error.h"
 #include "io/image_file.h"
 
@@ -51,10 +52,10 @@ SavedPicture save_picture(const DisplayImage& image, const fs::path& folder, con
     for (std::size_t i = 0; i < image.rgba.size(); i += 4)
       rgb.insert(rgb.end(), image.rgba.begin() + static_cast<std::ptrdiff_t>(i),
                  image.rgba.begin() + static_cast<std::ptrdiff_t>(i + 3));
-    write_srgb8_image(image.width, image.height, rgb, names.png.string());
-    const Frame& frame = *image.frame;
-    write_linear_image({frame.width, frame.height, frame.linear}, names.exr.string(),
-                       {{"candela:version", CANDELA_VERSION}, {"candela:spp", fmt::format("{}", frame.spp)}});
+    const ImageMetadata metadata =
+        picture_metadata(image.denoised ? image.denoised->spp : image.frame->spp, image.denoised != nullptr);
+    write_srgb8_image(image.width, image.height, rgb, names.png.string(), metadata);
+    write_linear_image({image.width, image.height, image.linear()}, names.exr.string(), metadata);
   } catch (...) { // the reserved names are still empty files: take them back
     std::error_code ignored;
     fs::remove(names.png, ignored);

@@ -7,6 +7,7 @@
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "render/compare.h"
+#include "render/denoise_film.h"
 #include "render/film_view.h"
 #include "session/offline_render.h"
 
@@ -97,7 +98,7 @@ void apply_options(const RenderOptions& o, Document& document, PassOptions& pass
 }
 
 nlohmann::ordered_json stats_json(const Document& document, const OfflineResult& result, const Image& image,
-                                  double load_seconds, int threads) {
+                                  double load_seconds, std::optional<double> denoise_seconds, int threads) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   nlohmann::ordered_json j;
@@ -105,6 +106,8 @@ nlohmann::ordered_json stats_json(const Document& document, const OfflineResult&
   j["load_s"] = load_seconds;
   j["build_s"] = result.build_seconds;
   j["render_s"] = result.render_seconds;
+  j["denoised"] = denoise_seconds.has_value();
+  if (denoise_seconds) j["denoise_s"] = *denoise_seconds;
   j["width"] = image.width;
   j["height"] = image.height;
   j["spp"] = result.spp;
@@ -125,6 +128,36 @@ nlohmann::ordered_json stats_json(const Document& document, const OfflineResult&
   j["peak_rss_bytes"] = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
   for (const auto& row : settings_table()) j["settings"][std::string(row.key)] = field_text(row, document);
   return j;
+}
+
+struct Denoised {
+  Image image;
+  double seconds; ///< features and all
+};
+
+/// The denoised picture where the settings ask for one; warns where there is nothing to make it from.
+std::optional<Denoised> denoised_picture(const Document& document, const OfflineResult& result,
+                                         const PassOptions& pass) {
+  if (!document.settings.display.denoise || document.settings.view != View::radiance) return std::nullopt;
+  if (result.spp < 2) {
+    fmt::print(stderr, "candela: warning: denoising takes two samples a pixel: the picture is as rendered\n");
+    return std::nullopt;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  FeatureFilm features(result.film.width(), result.film.height());
+  auto image = denoise_render(noisy_image(result.film), result.spp, *result.scene, document, features,
+                              {pass.threads, nullptr});
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  return Denoised{cropped(std::move(*image), pass.crop), seconds.count()};
+}
+
+/// How far the picture is from the reference and, where it was denoised, how far it was before.
+std::string reference_json(const Image& picture, const Image* noisy, const Image& reference) {
+  std::string text = comparison_json(compare_images(picture, reference));
+  if (noisy == nullptr) return text;
+  auto json = nlohmann::ordered_json::parse(text);
+  json["noisy"] = nlohmann::ordered_json::parse(comparison_json(compare_images(*noisy, reference)));
+  return json.dump(2);
 }
 
 std::string rate_text(const OfflineProgress& p) {
@@ -165,16 +198,21 @@ int run_render(const RenderOptions& options) {
                       fmt::format("it has {}x{} pixels, the render {}x{}", reference->width,
                                   reference->height, image.width, image.height),
                       "render at the reference's --size");
+  std::optional<Denoised> denoised = denoised_picture(loaded.document, result, offline.pass);
+  const Image& shown = denoised ? denoised->image : image;
   for (const std::string& path : outputs)
-    write_picture(image, path, loaded.document.settings.display, loaded.document.settings.view,
-                  result.display_scale, result.spp);
+    write_picture(shown, path, loaded.document.settings.display, loaded.document.settings.view,
+                  result.display_scale, picture_metadata(result.spp, denoised.has_value()));
   for (const std::string& path : write_aovs(aovs, outputs, loaded.document, result, offline))
     outputs.push_back(path);
 
   int threads = options.scene.threads > 0 ? options.scene.threads : omp_get_num_procs();
   if (options.stats)
     write_file_atomically(*options.stats,
-                          stats_json(loaded.document, result, image, load_seconds, threads).dump(2) + "\n");
+                          stats_json(loaded.document, result, image, load_seconds,
+                                     denoised ? std::optional(denoised->seconds) : std::nullopt, threads)
+                                  .dump(2) +
+                              "\n");
   bar.finish(
       fmt::format("{} spp in {:.2f} s, {:.2f} Msamples/s: {}", result.spp, result.render_seconds,
                   static_cast<double>(result.rays.samples) / std::max(result.render_seconds, 1e-9) / 1e6,
@@ -186,7 +224,7 @@ int run_render(const RenderOptions& options) {
                "sample {} at depth {}\n",
                result.nonfinite.count, first.pixel.x, first.pixel.y, first.sample, first.depth);
   }
-  if (reference) fmt::print("{}\n", comparison_json(compare_images(image, *reference)));
+  if (reference) fmt::print("{}\n", reference_json(shown, denoised ? &image : nullptr, *reference));
   if (!result.interrupted) return 0;
   fmt::print(stderr, "candela: interrupted; what was rendered is saved\n");
   return stop_signal == SIGTERM ? static_cast<int>(ExitCode::terminated)

@@ -47,6 +47,8 @@ std::string scene_title(const ViewerState& state) {
   return std::filesystem::path(state.scene_path).filename().string();
 }
 
+std::string denoised_text(const DenoisedImage& image) { return fmt::format("denoised ({} spp)", image.spp); }
+
 Viewer::Viewer(const Gl& gl, ViewerOptions options)
     : gl_(gl), options_(std::move(options)), draw_(gl), viewport_(gl), session_(make_session(options_)),
       reader_(options_.wake), writer_(options_.wake), inspector_(gl, options_.wake), lab_(options_.wake) {
@@ -193,6 +195,7 @@ void Viewer::draw_ui() {
     status_line(ui_, state_, vec2(0, free_size.y), vec2(window.x, window.y - free_size.y));
   }
   inspector_.draw(ui_, state_, picture_rect(), free, now_);
+  if (state_.error.empty()) picture_label(ui_, state_, vec2(0));
   lab_.draw(ui_, state_.lab_visible, vec2(0), free_size);
   error_strip(ui_, state_, vec2(0), free_size.x);
   help_overlay(ui_, state_, 0.5f * free_size, 0.96f * free_size);

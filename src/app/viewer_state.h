@@ -82,6 +82,9 @@ struct ViewerState {
   bool frame_requested = false; ///< the selection, or the scene, into the picture
 };
 
+/// "denoised (16 spp)".
+std::string denoised_text(const DenoisedImage& image);
+
 /// Name of the scene's file without its folder, or "Cornell box" for the built-in one.
 std::string scene_title(const ViewerState& state);
 

@@ -12,6 +12,7 @@
 #include "io/image_file.h"
 #include "scene/mesh.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,9 @@ namespace candela {
 /// Caps of every reader of pictures.
 inline constexpr std::int64_t kMaxImageSide = 65536;
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
+
+/// Of a text in a picture, once it is decompressed.
+inline constexpr std::size_t kMaxPictureText = std::size_t{1} << 28;
 
 /// Throws input_error unless both sides are positive, limit_error above the
 /// caps.
@@ -53,6 +57,13 @@ Bytes encode_png(int width, int height, ByteView rgb);
 // unread.
 bool is_png(ByteView bytes);
 void check_png(ByteView bytes, const Location& where);
+
+// png_text.cpp: text in a PNG.
+/// Adds iTXt chunks before the end; long texts are compressed.
+Bytes with_png_text(Bytes png, const ImageMetadata& text);
+/// The text of that name (in an iTXt chunk), nothing if there is none. The PNG has passed check_png. Throws
+/// damaged_image for a chunk that breaks off, limit_error above kMaxPictureText bytes of text.
+std::optional<std::string> png_text(ByteView bytes, std::string_view name, const Location& where);
 
 // jpg.cpp: JPEG, grey and colour; written with quality 95 and colour in full
 // resolution.

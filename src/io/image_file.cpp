@@ -37,8 +37,9 @@ void check_written_size(const std::string& path, std::int64_t width, std::int64_
                        "give it pixels");
 }
 
-Bytes encode_srgb8(ImageFormat format, int width, int height, ByteView rgb, const std::string& path) {
-  return format == ImageFormat::png   ? encode_png(width, height, rgb)
+Bytes encode_srgb8(ImageFormat format, int width, int height, ByteView rgb, const std::string& path,
+                   const ImageMetadata& metadata = {}) {
+  return format == ImageFormat::png   ? with_png_text(encode_png(width, height, rgb), metadata)
          : format == ImageFormat::jpg ? encode_jpg(width, height, rgb, path)
                                       : encode_ppm(width, height, rgb);
 }
@@ -83,13 +84,14 @@ void write_linear_image(const Image& image, const std::string& path, const Image
   throw usage_error(path, "the format does not hold linear values", "use .exr, .hdr or .pfm");
 }
 
-void write_srgb8_image(int width, int height, std::span<const std::uint8_t> rgb, const std::string& path) {
+void write_srgb8_image(int width, int height, std::span<const std::uint8_t> rgb, const std::string& path,
+                       const ImageMetadata& metadata) {
   check_written_size(path, width, height, rgb.size(),
                      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
   ImageFormat format = image_format_of(path);
   if (is_linear_format(format))
     throw usage_error(path, "the format holds linear values", "use .png, .jpg or .ppm");
-  write_file_atomically(path, encode_srgb8(format, width, height, rgb, path));
+  write_file_atomically(path, encode_srgb8(format, width, height, rgb, path, metadata));
 }
 
 std::string write_srgb8_image_uniquely(int width, int height, std::span<const std::uint8_t> rgb,

@@ -28,7 +28,8 @@ constexpr bool is_linear_format(ImageFormat format) { return format >= ImageForm
 /// 2^28 in all.
 Image read_image(const std::string& path);
 
-/// Text to keep in the file, by name: string attributes in EXR, header lines in HDR. PFM has no room for it.
+/// Text (UTF-8) to keep in the file, by name: chunks in PNG, string attributes in EXR, header lines in HDR.
+/// The other formats have no room for it.
 using ImageMetadata = std::map<std::string, std::string>;
 
 /// Writes EXR (32-bit float, ZIP), HDR (negative and NaN channels become 0) or PFM by the ending. The file
@@ -36,7 +37,8 @@ using ImageMetadata = std::map<std::string, std::string>;
 void write_linear_image(const Image& image, const std::string& path, const ImageMetadata& metadata = {});
 
 /// Writes PNG, JPG (quality 95) or PPM by the ending, from rows of three bytes a pixel, top row first.
-void write_srgb8_image(int width, int height, std::span<const std::uint8_t> rgb, const std::string& path);
+void write_srgb8_image(int width, int height, std::span<const std::uint8_t> rgb, const std::string& path,
+                       const ImageMetadata& metadata = {});
 
 /// The same for screenshots: never overwrites, but takes the first free of stem.png, stem-2.png … in the
 /// folder and returns its path.

@@ -26,6 +26,7 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
   auto scene = RenderScene::build(document);
   OfflineResult result;
   result.build_seconds = seconds_since(start);
+  result.scene = scene;
   result.scene_bytes = scene->memory_bytes();
   result.display_scale = display_scale(*scene, document.settings);
   result.film = Film(document.settings.film.width, document.settings.film.height);

@@ -23,6 +23,7 @@ struct OfflineOptions {
 };
 
 struct OfflineResult {
+  std::shared_ptr<const RenderScene> scene; ///< what was rendered
   Film film;
   std::array<Film, 3> components; ///< emitted, direct, indirect, where asked for
   int spp = 0;                    ///< complete passes

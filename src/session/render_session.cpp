@@ -402,9 +402,9 @@ void RenderSession::State::present_loop() {
       display = newest.settings.display;
     }
     auto made = std::make_shared<DisplayImage>();
-    const std::vector<vec3>& linear = clean ? clean->linear : source->linear;
     made->frame = source;
     made->denoised = clean;
+    const std::vector<vec3>& linear = made->linear();
     made->display = display;
     made->width = source->width;
     made->height = source->height;

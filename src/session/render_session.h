@@ -42,6 +42,9 @@ struct DisplayImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgba; ///< row 0 is the top
+
+  /// What was tone-mapped.
+  const std::vector<vec3>& linear() const { return denoised ? denoised->linear : frame->linear; }
 };
 
 struct SessionOptions {

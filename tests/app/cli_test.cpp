@@ -178,6 +178,25 @@ TEST_F(CliTest, ComparesWithAReference) {
   EXPECT_EQ(wrong.code, 3);
 }
 
+TEST_F(CliTest, DenoisesAndSaysSo) {
+  const std::string noisy = fmt::format("render '{}' --size 48x48 --quiet ", scene);
+  const std::string clean = noisy + "--set display.denoise=true ";
+  ASSERT_EQ(run(noisy + "--spp 256 -o ref.exr").code, 0);
+  Outcome o =
+      run(clean + "--spp 8 --threads 1 --seed 3 -o a.exr -o a.png --reference ref.exr --stats s.json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  auto errors = nlohmann::json::parse(o.out);
+  EXPECT_LT(errors["relMSE"], errors["noisy"]["relMSE"]);
+  EXPECT_EQ(nlohmann::json::parse(file_text(path("s.json")))["denoised"], true);
+  for (const char* name : {"a.exr", "a.png"})
+    EXPECT_NE(file_text(path(name)).find("candela.denoised"), std::string::npos) << name;
+  ASSERT_EQ(run(clean + "--spp 8 --threads 3 --seed 3 -o b.exr").code, 0);
+  EXPECT_TRUE(read_image(path("b.exr")) == read_image(path("a.exr"))) << "for any number of threads";
+  Outcome one = run(clean + "--spp 1 -o c.exr");
+  EXPECT_EQ(one.code, 0);
+  EXPECT_NE(one.err.find("two samples"), std::string::npos) << one.err;
+}
+
 TEST_F(CliTest, ErrorsHaveTheirExitCodes) {
   struct Case {
     std::string arguments;
