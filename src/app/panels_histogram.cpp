@@ -66,14 +66,24 @@ void draw_ticks(ImDrawList& list, const Plot& plot, float unit) {
   }
 }
 
-/// The plot, and the exposure under the hand: the light moves with it.
-void histogram_plot(Ui& ui, ViewerState& state, const LogHistogram& histogram,
-                    const DisplayTransform& shown) {
+/// The plot, and the exposure under the hand: the light moves with it. It takes the same room when there is
+/// nothing to plot (yet), so that nothing below jumps.
+void histogram_plot(Ui& ui, ViewerState& state, const LogHistogram* histogram) {
   const float unit = ui.scale(), height = 96 * unit;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::InvisibleButton("##histogram", ImVec2(width, height + 6 * unit + ImGui::GetTextLineHeight()));
   ui.record("histogram.plot");
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const Plot plot{at, ImVec2(at.x + width, at.y + height)};
+  list.AddRectFilled(plot.lo, plot.hi, IM_COL32(18, 18, 18, 255));
+  const bool exposed = state.picture && !state.picture->transform.false_color;
+  if (!histogram || !exposed) {
+    const char* why = histogram ? "False colours are not exposed" : "No picture yet";
+    list.AddText(ImVec2(plot.lo.x + 8 * unit, plot.lo.y + 6 * unit),
+                 ImGui::GetColorU32(ImGuiCol_TextDisabled), why);
+    return;
+  }
   ui.tooltip(
       "Pixels by luminance (grey), red, green and blue, in stops from middle grey as exposed; heights are "
       "square roots of counts.\nDrag to expose; double-click resets.");
@@ -85,17 +95,15 @@ void histogram_plot(Ui& ui, ViewerState& state, const LogHistogram& histogram,
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   state.edited |= exposure != before;
 
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const Plot plot{at, ImVec2(at.x + width, at.y + height)};
-  list.AddRectFilled(plot.lo, plot.hi, IM_COL32(18, 18, 18, 255));
+  const DisplayTransform& shown = state.picture->transform;
   // The picture may not be toned anew yet: what the hand has added since is added here.
-  const float exposed = shown.tone.exposure + exposure - state.picture->display.exposure;
-  const float grey = std::log2(kMiddleGrey) - exposed;
-  const auto largest = static_cast<float>(largest_count(histogram));
-  draw_channel(list, plot, histogram, LogHistogram::luminance, grey, largest, IM_COL32(150, 150, 150, 150));
-  draw_channel(list, plot, histogram, LogHistogram::red, grey, largest, IM_COL32(230, 60, 50, 90));
-  draw_channel(list, plot, histogram, LogHistogram::green, grey, largest, IM_COL32(60, 200, 70, 90));
-  draw_channel(list, plot, histogram, LogHistogram::blue, grey, largest, IM_COL32(70, 110, 255, 110));
+  const float stops = shown.tone.exposure + exposure - state.picture->display.exposure;
+  const float grey = std::log2(kMiddleGrey) - stops;
+  const auto largest = static_cast<float>(largest_count(*histogram));
+  draw_channel(list, plot, *histogram, LogHistogram::luminance, grey, largest, IM_COL32(150, 150, 150, 150));
+  draw_channel(list, plot, *histogram, LogHistogram::red, grey, largest, IM_COL32(230, 60, 50, 90));
+  draw_channel(list, plot, *histogram, LogHistogram::green, grey, largest, IM_COL32(60, 200, 70, 90));
+  draw_channel(list, plot, *histogram, LogHistogram::blue, grey, largest, IM_COL32(70, 110, 255, 110));
   draw_marker(list, plot, 0, "grey", unit);
   DisplaySettings unexposed = shown.tone;
   unexposed.exposure = 0;
@@ -119,22 +127,18 @@ void inspect_panel(Ui& ui, ViewerState& state) {
   const bool initial = false;
   ui.field("inspect.probe", kProbe, &inspect.probe_visible, {&initial, "pixel probe (I)", 0});
   inspect.histogram_open = true;
-  if (!inspect.histogram || !state.picture) {
-    ImGui::TextDisabled("No picture yet");
-    return;
-  }
-  const LogHistogram& histogram = *inspect.histogram;
-  if (state.picture->transform.false_color)
-    ImGui::TextDisabled("In false colours nothing is exposed");
-  else
-    histogram_plot(ui, state, histogram, state.picture->transform);
-  ui.readout("black", percent(histogram.clipped_black, histogram.pixels), "Pixels shown as 0 0 0");
-  ui.readout("clipped", percent(histogram.clipped_white, histogram.pixels),
-             "Pixels of which a channel is shown as 255");
-  ui.readout("luminance", fmt::format("{:.4g} to {:.4g}", histogram.smallest, histogram.largest),
-             "The smallest above 0, and the largest");
-  ui.readout("log-average", fmt::format("{:.4g}", histogram.log_average),
-             "Geometric mean of the luminances above 0");
+  const LogHistogram* histogram = inspect.histogram.get();
+  histogram_plot(ui, state, histogram);
+  auto row = [&](const char* label, const std::string& value, const char* help) {
+    ui.readout(label, histogram ? value : "-", help);
+  };
+  static const LogHistogram kEmpty;
+  const LogHistogram& h = histogram ? *histogram : kEmpty;
+  row("black", percent(h.clipped_black, h.pixels), "Pixels shown as 0 0 0");
+  row("clipped", percent(h.clipped_white, h.pixels), "Pixels of which a channel is shown as 255");
+  row("luminance", fmt::format("{:.4g} to {:.4g}", h.smallest, h.largest),
+      "The smallest above 0, and the largest");
+  row("log-average", fmt::format("{:.4g}", h.log_average), "Geometric mean of the luminances above 0");
 }
 
 } // namespace candela

@@ -114,8 +114,10 @@ std::vector<double> legend_ticks(const FalseColorScale& scale) {
   return ticks;
 }
 
-std::string view_name(const ViewerState& state) {
-  std::string name = field_text(*find_setting("view"), state.document);
+std::string view_name(View view) {
+  Document document;
+  document.settings.view = view;
+  std::string name = field_text(*find_setting("view"), document);
   std::ranges::replace(name, '_', ' ');
   return name;
 }
@@ -191,7 +193,7 @@ void legend_overlay(Ui& ui, const ViewerState& state, vec2 bottom_left) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * unit);
   if (ImGui::Begin("##legend", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
     const std::string_view unit_name = view_unit(state.picture->frame->view);
-    ImGui::TextUnformatted(view_name(state).c_str());
+    ImGui::TextUnformatted(view_name(state.picture->frame->view).c_str());
     if (!unit_name.empty()) {
       ImGui::SameLine();
       ImGui::TextDisabled("%.*s%s", static_cast<int>(unit_name.size()), unit_name.data(),
