@@ -157,11 +157,12 @@ TEST(ViewerBookmarksUi, AreAddedRenamedVisitedAndDeleted) {
   EXPECT_EQ(candela_json(hand.document(), ".").find("bookmarks"), std::string::npos);
 }
 
-TEST(ViewerFocusUi, AClickMarksItsDistanceForAWhile) {
+TEST(ViewerFocusUi, FocusingMarksTheDistanceForAWhile) {
   ViewerHarness hand;
   hand.wait_for_picture();
   const vec2 at = on_screen(hand, {35.5f, 32.5f});
-  hand.click(at);
+  hand.move(at);
+  hand.key(Key::f);
   ASSERT_TRUE(inspect(hand).focus_mark);
   EXPECT_EQ(inspect(hand).focus_mark->view_depth, hand.document().scene.camera.focus_distance);
   hand.frame();
@@ -272,7 +273,8 @@ TEST(ViewerCameraUi, ForwardMakesAnOrthographicViewSmaller) {
   const float steps = hand.state().natural_speed * (1 / 60.0f + 10 / 30.0f) / 3.6f;
   EXPECT_NEAR(after.orthographic_height, 3 * std::exp(-steps), 1e-3f);
   hand.wait_for_picture();
-  hand.click(on_screen(hand, {32, 24}));
+  hand.move(on_screen(hand, {32, 24}));
+  hand.key(Key::f);
   EXPECT_NEAR(hand.document().scene.camera.focus_distance, 4.6f, 1e-3f) << "picking works there, too";
 }
 
@@ -296,7 +298,8 @@ TEST(ViewerScreenshotsUi, ShowWhatTheProbeAndTheHistogramTell) {
     hand.unfold("panel.bookmarks", "bookmark.add");
     hand.unfold("panel.camera", "camera.vertical_fov");
     hand.key(Key::i);
-    hand.click(on_screen(hand, {264, 180})); // the ball
+    hand.move(on_screen(hand, {264, 180})); // the ball
+    hand.key(Key::f);
     hand.wait_for_picture(300);
     hand.wait_until("the picture is counted",
                     [&] { return inspect(hand).histogram_of == hand.state().picture; });
