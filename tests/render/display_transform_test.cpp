@@ -65,8 +65,7 @@ TEST(DisplayTransform, ExposuresAdd) {
   EXPECT_NEAR(automatic.automatic_exposure, 1, 1e-4f);
   EXPECT_NEAR(automatic.tone.exposure, 1.5f, 1e-4f);
   EXPECT_FALSE(automatic.tone.auto_exposure);
-  EXPECT_EQ(transform_of(linear, 4, display, View::albedo).tone.exposure, 0)
-      << "a reflectance is no light";
+  EXPECT_EQ(transform_of(linear, 4, display, View::albedo).tone.exposure, 0) << "a reflectance is no light";
   std::vector<std::uint8_t> rgb(3 * linear.size());
   display.exposure = 0;
   display_rgb8(linear, transform_of(linear, 4, display, View::radiance), rgb);
