@@ -77,9 +77,10 @@ void histogram_plot(Ui& ui, ViewerState& state, const LogHistogram* histogram) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Plot plot{at, ImVec2(at.x + width, at.y + height)};
   list.AddRectFilled(plot.lo, plot.hi, IM_COL32(18, 18, 18, 255));
-  const bool exposed = state.picture && !state.picture->transform.false_color;
+  const bool exposed =
+      state.picture && !state.picture->transform.false_color && state.picture->frame->view == View::radiance;
   if (!histogram || !exposed) {
-    const char* why = histogram ? "False colours are not exposed" : "No picture yet";
+    const char* why = histogram ? "Only radiance is exposed; here nothing is" : "No picture yet";
     list.AddText(ImVec2(plot.lo.x + 8 * unit, plot.lo.y + 6 * unit),
                  ImGui::GetColorU32(ImGuiCol_TextDisabled), why);
     return;

@@ -40,13 +40,13 @@ std::vector<Row> picture_rows(const DisplayImage& picture, ivec2 pixel) {
   const Frame& frame = *picture.frame;
   const auto index = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(frame.width) +
                      static_cast<std::size_t>(pixel.x);
-  const vec3 value = frame.linear[index];
+  const vec3 value = picture.linear()[index];
   const std::uint8_t* shown = picture.rgba.data() + 4 * index;
   std::vector<Row> rows = {{"pixel", fmt::format("{}, {}", pixel.x, pixel.y)}};
   if (is_scalar_view(frame.view)) {
     rows.push_back({"value", fmt::format("{} {}", digits(value.x), view_unit(frame.view))});
   } else {
-    rows.push_back({"linear RGB", triple(value)});
+    rows.push_back({picture.denoised ? "denoised" : "linear RGB", triple(value)});
     const float l = luminance(value);
     rows.push_back({"luminance", digits(l)});
     if (frame.view == View::radiance) {
@@ -62,9 +62,9 @@ std::vector<Row> picture_rows(const DisplayImage& picture, ivec2 pixel) {
     return rows;
   }
   rows.push_back({"samples", fmt::format("{}", frame.samples[index])});
-  // Of the pixel's mean, by channel; relative: of all channels together.
+  // Of the pixel's mean before any denoising, by channel; relative: of all channels together.
   const vec3 variance = frame.variance[index];
-  const float mean = average(value);
+  const float mean = average(frame.linear[index]);
   rows.push_back({"std error", triple(glm::sqrt(variance))});
   if (frame.view == View::radiance && mean > 0)
     rows.back().value += fmt::format("  {:.1f} %", 100 * std::sqrt(average(variance)) / mean);
