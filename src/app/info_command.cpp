@@ -15,8 +15,9 @@ namespace {
 nlohmann::ordered_json vector_json(vec3 v) { return {v.x, v.y, v.z}; }
 
 const char* light_name(const Light& light) {
-  static constexpr const char* kNames[] = {"rectangle", "triangle",    "sphere",  "disc",
-                                           "point",     "directional", "constant"};
+  static constexpr const char* kNames[] = {"rectangle",   "triangle", "sphere", "disc",       "point",
+                                           "directional", "constant", "spot",   "environment"};
+  static_assert(std::size(kNames) == std::variant_size_v<Light>);
   return kNames[light.index()];
 }
 

@@ -1,6 +1,7 @@
 #include "io/candela_json.h"
 #include "io/json_camera.h"
 #include "io/json_fields.h"
+#include "io/json_light.h"
 #include "io/json_mesh.h"
 #include "io/json_texture.h"
 #include "io/json_transform.h"
@@ -105,24 +106,6 @@ private:
     }
   }
 
-  /// Reads a key that is a row of the table, if it is one.
-  template <class Owner>
-  static bool read_row(std::span<const Field<Owner>> rows, Owner& owner, JsonValue key, JsonValue value,
-                       std::string_view element) {
-    auto row = std::ranges::find(rows, std::string_view(key.string()), &FieldInfo::key);
-    if (row == rows.end()) return false;
-    read_field(*row, row->address(owner), value, fmt::format("{}.{}", element, row->key));
-    return true;
-  }
-
-  template <class Owner>
-  static std::vector<std::string_view> keys_of(std::span<const Field<Owner>> rows,
-                                               std::initializer_list<std::string_view> more) {
-    std::vector<std::string_view> keys(more);
-    for (const auto& row : rows) keys.push_back(row.key);
-    return keys;
-  }
-
   void textures(JsonValue array) {
     each_object(array, "textures", [&](JsonValue object, const std::string& element) {
       JsonTexture texture = read_json_texture(object, element);
@@ -164,18 +147,8 @@ private:
   }
 
   void lights(JsonValue array) {
-    auto known = keys_of(light_fields(), {"name"});
     each_object(array, "lights", [&](JsonValue object, const std::string& element) {
-      LightDesc light;
-      for (auto [key, value] : object.members()) {
-        if (key.string() == "name")
-          light.name = read_string(value, element + ".name");
-        else if (!read_row(light_fields(), light, key, value, element))
-          throw unknown_key(key, element, known);
-      }
-      if (light.type == LightType::directional && is_black(light.direction))
-        throw input_error(object.where(), element, "its direction has no length", "give a direction");
-      document_.scene.lights.push_back(std::move(light));
+      document_.scene.lights.push_back(read_json_light(object, element, builder_, folder_));
     });
   }
 
@@ -214,8 +187,9 @@ private:
   }
 
   void instance(JsonValue object, const std::string& element) {
-    constexpr std::string_view kKeys[] = {"name",     "shape",     "mesh",      "file",
-                                          "material", "materials", "transform", "radius"};
+    constexpr std::string_view kKeys[] = {"name",     "shape",        "mesh",      "file",
+                                          "material", "materials",    "transform", "radius",
+                                          "height",   "minor_radius", "caps"};
     std::map<std::string_view, JsonValue> parts;
     for (auto [key, value] : object.members()) {
       auto known = std::ranges::find(kKeys, key.string());
@@ -235,39 +209,49 @@ private:
     const auto* shape = part("shape");
     if (!shape && !names_mesh)
       throw input_error(object.where(), element, "it has no shape",
-                        "give a \"shape\": mesh, sphere, rectangle or disc");
+                        fmt::format("give a \"shape\": {}", fmt::join(shape_names(), ", ")));
     std::string kind = shape ? read_string(*shape, element + ".shape") : "mesh";
     if (kind != "mesh" && names_mesh)
       throw input_error((part("mesh") ? part("mesh") : part("file"))->where(), element,
                         fmt::format("a {} has no mesh", kind), "leave it out, or say \"shape\": \"mesh\"");
-    if (kind != "sphere" && part("radius"))
-      throw input_error(part("radius")->where(), element, fmt::format("a {} has no radius", kind),
-                        "scale it by its transform");
     MeshFile* file = nullptr;
     if (kind == "mesh") {
       NamedMesh mesh = mesh_part(object, part("mesh"), part("file"), element);
       file = mesh.file;
       out.shape = std::move(mesh.mesh);
-    } else if (kind == "sphere") {
-      SphereShape sphere;
-      if (const auto* radius = part("radius")) {
-        sphere.radius = read_real(*radius, element + ".radius");
-        if (!(sphere.radius > 0))
-          throw input_error(radius->where(), element + ".radius",
-                            fmt::format("{} does not fit", sphere.radius), "give a positive number");
-      }
-      out.shape = sphere;
-    } else if (kind == "rectangle") {
-      out.shape = RectangleShape{};
-    } else if (kind == "disc") {
-      out.shape = DiscShape{};
+    } else if (auto standard = shape_of_name(kind)) {
+      out.shape = *standard;
     } else {
       throw input_error(shape->where(), element + ".shape",
                         fmt::format("there is no shape '{}'", kind.substr(0, 60)),
-                        "give mesh, sphere, rectangle or disc");
+                        fmt::format("give one of {}", fmt::join(shape_names(), ", ")));
     }
+    shape_values(out.shape, parts, object.where(), element);
     instance_materials(out, part("material"), part("materials"), file, object.where(), element);
     document_.scene.instances.push_back(std::move(out));
+  }
+
+  /// The values of the shape's kind; those of other kinds are errors.
+  static void shape_values(Shape& shape, const std::map<std::string_view, JsonValue>& parts,
+                           const Location& where, const std::string& element) {
+    auto rows = shape_fields(shape);
+    for (std::string_view key : {"radius", "height", "minor_radius", "caps"}) {
+      auto given = parts.find(key);
+      if (given == parts.end()) continue;
+      auto row = std::ranges::find(rows, key, &FieldInfo::key);
+      if (row == rows.end())
+        throw input_error(given->second.where(), element,
+                          fmt::format("a {} has no {}", shape_name(shape), key),
+                          "leave it out; a transform scales any shape");
+      read_field(*row, row->address(shape), given->second, fmt::format("{}.{}", element, key));
+    }
+    std::string problem = shape_problem(shape);
+    if (problem.empty()) return;
+    std::string_view key = std::string_view(problem).substr(0, problem.find(':'));
+    auto given = parts.find(key);
+    throw input_error(given == parts.end() ? where : given->second.where(),
+                      fmt::format("{}.{}", element, key), problem.substr(key.size() + 2),
+                      "correct it, or scale the shape by its transform");
   }
 
   NamedMesh mesh_part(JsonValue object, const JsonValue* mesh, const JsonValue* file,

@@ -2,6 +2,7 @@
 #include "io/candela_json.h"
 #include "io/json_camera.h"
 #include "io/json_fields.h"
+#include "io/json_light.h"
 #include "io/json_mesh.h"
 #include "io/json_texture.h"
 
@@ -96,10 +97,10 @@ private:
     return relative.generic_string();
   }
 
-  std::string texture_path(const Texture& texture) const {
+  std::string picture_path(const std::string& source) const {
     std::error_code failed;
-    fs::path file = fs::weakly_canonical(fs::absolute(texture.source), failed);
-    return (failed ? fs::path(texture.source) : file.lexically_relative(folder_)).generic_string();
+    fs::path file = fs::weakly_canonical(fs::absolute(source), failed);
+    return (failed ? fs::path(source) : file.lexically_relative(folder_)).generic_string();
   }
 
   /// Whether the reader, which numbers textures as materials come to name them, would number them so.
@@ -120,7 +121,7 @@ private:
     for (const auto& texture : scene_.textures)
       out.push_back(texture->source.empty()
                         ? json_texture(*texture)
-                        : fmt::format("{{\"file\": {}}}", json_quoted(texture_path(*texture))));
+                        : fmt::format("{{\"file\": {}}}", json_quoted(picture_path(texture->source))));
     return out;
   }
 
@@ -140,7 +141,7 @@ private:
 
   std::string texture_reference(int index) const {
     if (!natural_textures_) return fmt::format("{}", index);
-    return json_quoted(texture_path(*scene_.textures[static_cast<std::size_t>(index)]));
+    return json_quoted(picture_path(scene_.textures[static_cast<std::size_t>(index)]->source));
   }
 
   std::vector<std::string> lights() const {
@@ -149,9 +150,19 @@ private:
       std::vector<std::string> members;
       if (!light.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(light.name)));
       for (std::string& row : changed_rows(light_fields(), light)) members.push_back(std::move(row));
+      if (light.panorama && light.type == LightType::environment)
+        members.push_back(panorama(*light.panorama));
       out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
     }
     return out;
+  }
+
+  std::string panorama(const Panorama& panorama) const {
+    if (panorama.sources.empty()) return json_panorama_member(panorama);
+    std::vector<std::string> paths;
+    for (const std::string& source : panorama.sources) paths.push_back(json_quoted(picture_path(source)));
+    if (paths.size() == 1) return fmt::format("\"file\": {}", paths[0]);
+    return fmt::format("\"files\": [{}]", joined(paths, ", "));
   }
 
   std::vector<std::string> meshes() {
@@ -192,9 +203,14 @@ private:
   std::string shape(const Shape& any) const {
     if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&any))
       return fmt::format("\"shape\": \"mesh\", \"mesh\": {}", json_quoted(mesh_keys_.at(mesh->get())));
-    if (const auto* sphere = std::get_if<SphereShape>(&any))
-      return fmt::format("\"shape\": \"sphere\", \"radius\": {}", sphere->radius);
-    return std::holds_alternative<RectangleShape>(any) ? "\"shape\": \"rectangle\"" : "\"shape\": \"disc\"";
+    std::vector<std::string> members = {fmt::format("\"shape\": \"{}\"", shape_name(any))};
+    Shape standard = *shape_of_name(shape_name(any));
+    for (const auto& row : shape_fields(any)) {
+      const void* value = row.address(const_cast<Shape&>(any));
+      if (!field_equal(row, value, row.address(standard)))
+        members.push_back(fmt::format("\"{}\": {}", row.key, field_json(row, value)));
+    }
+    return joined(members, ", ");
   }
 
   void count_names() {

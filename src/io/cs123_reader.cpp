@@ -1,5 +1,6 @@
 #include "io/cs123_reader.h"
 
+#include "io/cs123_light.h"
 #include "io/cs123_material.h"
 #include "io/json_transform.h"
 #include "io/obj_line.h"
@@ -21,6 +22,23 @@ constexpr int kMaxDepth = 64;
 constexpr std::size_t kMaxInstances = 1'000'000;
 constexpr std::size_t kMaxTransblocks = 4'000'000;
 
+struct Cs123Shape {
+  Shape shape;
+  dmat4 unit_from_shape{1.0};
+};
+
+/// A primitive: all fit the cube of side 1 about the origin; the axis is y.
+std::optional<Cs123Shape> cs123_shape(std::string_view kind) {
+  const dmat4 y_from_z = rotation({1, 0, 0}, -90);
+  const dmat4 half_down = glm::translate(dmat4(1), {0, -0.5, 0});
+  if (kind == "sphere") return Cs123Shape{SphereShape{0.5f}};
+  if (kind == "cube") return Cs123Shape{CubeShape{}, glm::scale(dmat4(1), dvec3(0.5))};
+  if (kind == "cylinder") return Cs123Shape{CylinderShape{0.5f, 1, true}, half_down * y_from_z};
+  if (kind == "cone") return Cs123Shape{ConeShape{0.5f, 1, true}, half_down * y_from_z};
+  if (kind == "torus") return Cs123Shape{TorusShape{0.375f, 0.125f}, y_from_z};
+  return std::nullopt;
+}
+
 class Cs123Reader {
 public:
   Cs123Reader(const FoundFile& file, const PathPolicy& policy, WarningList& warnings)
@@ -40,7 +58,7 @@ public:
       else if (name == "cameradata")
         camera_data(part);
       else if (name == "lightdata")
-        light_data(part);
+        add_cs123_light(document_.scene, builder_, read_cs123_light(part, values_));
       else if (name == "object")
         declare(part);
       else
@@ -133,50 +151,6 @@ private:
                         fmt::format("give {}", field_domain(*row)));
     document_.scene.camera.vertical_fov =
         static_cast<float>(static_cast<double>(deg) * (std::numbers::pi / 180));
-  }
-
-  void light_data(pugi::xml_node data) {
-    LightDesc light;
-    light.name = "light";
-    std::optional<dvec3> function;
-    for (pugi::xml_node part : data.children()) {
-      if (part.type() != pugi::node_element) continue;
-      std::string_view name = part.name();
-      if (name == "id")
-        light.name = fmt::format("light {}", values_.number(part, {"v", "value"}));
-      else if (name == "type")
-        light.type = light_type(part);
-      else if (name == "position" || name == "pos")
-        light.position = values_.vector(part);
-      else if (name == "direction" || name == "dir")
-        light.direction = values_.vector(part);
-      else if (name == "color")
-        light.color = values_.color(part);
-      else if (name == "function")
-        function = dvec3(values_.vector(part));
-      else
-        values_.ignore(part);
-    }
-    if (light.type == LightType::point && function && *function != dvec3(0, 0, 1))
-      values_.warnings().add(places_.element(data),
-                             "a light's function of distance is ignored: 1/r^2 is physical");
-    if (light.type == LightType::directional && is_black(light.direction))
-      throw input_error(places_.element(data), "lightdata", "its direction has no length",
-                        "give a direction");
-    document_.scene.lights.push_back(std::move(light));
-  }
-
-  LightType light_type(pugi::xml_node part) {
-    auto attribute = part.attribute("v") ? part.attribute("v") : part.attribute("value");
-    std::string_view type = attribute.value();
-    if (type == "point") return LightType::point;
-    if (type == "directional") return LightType::directional;
-    Location where = attribute ? places_.attribute(attribute, part) : places_.element(part);
-    if (type == "spot" || type == "area")
-      throw input_error(where, "lightdata", fmt::format("{} lights are not supported yet", type),
-                        "use a point or directional light, or a mesh that emits");
-    throw input_error(where, "lightdata", fmt::format("there is no light type '{}'", type.substr(0, 40)),
-                      "give point or directional");
   }
 
   void declare(pugi::xml_node object) {
@@ -305,18 +279,17 @@ private:
     instance.world_from_object = mat4(m);
     if (kind == "mesh") {
       mesh(node, instance);
-    } else if (kind == "sphere") {
-      instance.name = "sphere";
-      instance.shape = SphereShape{0.5f};
+    } else if (auto shape = cs123_shape(kind)) {
+      instance.name = kind;
+      instance.shape = shape->shape;
+      instance.world_from_object = mat4(m * shape->unit_from_shape);
       int own = own_material(node, kind);
       instance.materials = {own >= 0 ? own : builder_.default_material()};
     } else {
       auto attribute = node.attribute("name");
-      bool known = kind == "cube" || kind == "cylinder" || kind == "cone";
       throw input_error(attribute ? places_.attribute(attribute, node) : places_.element(node), "object",
-                        known ? fmt::format("{}s are not supported yet", kind)
-                              : fmt::format("there is no primitive '{}'", kind.substr(0, 40)),
-                        known ? "use a mesh" : "give mesh or sphere");
+                        fmt::format("there is no primitive '{}'", kind.substr(0, 40)),
+                        "give cube, cylinder, cone, sphere, torus or mesh");
     }
     document_.scene.instances.push_back(std::move(instance));
   }

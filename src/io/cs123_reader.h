@@ -21,9 +21,11 @@ namespace candela {
 /// - An object's own material is dielectric if `transparent` is not black, else mirror if `reflective` is
 ///   not, else phong if `specular` is not, else diffuse.
 /// - MTL files are of MtlDialect::cs123.
-/// - A light's colour is its intensity (point) or irradiance (directional); the `function` of distance is
-///   ignored, as light falls off with the square.
-/// - spheres have the radius 0.5. Other primitives, spot and area lights are refused: not supported yet.
+/// - Lights are those of io/cs123_light.h.
+/// - Primitives fill the cube of side 1 about the origin: a sphere has the radius 0.5; cylinder and cone
+/// stand
+///   on y = -0.5 and end at y = 0.5, closed; a torus lies about the y axis, its tube of radius 0.125 about a
+///   circle of radius 0.375.
 ///
 /// What is ignored is counted in `warnings`. Errors are located at the element or attribute. limit_error
 /// above 64 levels, a million instances or four million transblocks (masters of masters grow fast).

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace candela {
 
@@ -29,5 +30,26 @@ vec3 read_vec3(JsonValue value, std::string_view element);
 
 /// The error of a key that means nothing here, with the nearest of the keys that would.
 Error unknown_key(JsonValue key, std::string_view element, std::span<const std::string_view> known);
+
+/// Reads a key that is a row of the table, if it is one.
+template <class Owner>
+bool read_row(std::span<const Field<Owner>> rows, Owner& owner, JsonValue key, JsonValue value,
+              std::string_view element) {
+  for (const auto& row : rows)
+    if (row.key == key.string()) {
+      read_field(row, row.address(owner), value, std::string(element) + "." + key.string());
+      return true;
+    }
+  return false;
+}
+
+/// The keys of the rows and some more.
+template <class Owner>
+std::vector<std::string_view> keys_of(std::span<const Field<Owner>> rows,
+                                      std::initializer_list<std::string_view> more) {
+  std::vector<std::string_view> keys(more);
+  for (const auto& row : rows) keys.push_back(row.key);
+  return keys;
+}
 
 } // namespace candela

@@ -1,5 +1,6 @@
 #include "io/scene_builder.h"
 
+#include "io/panorama_reader.h"
 #include "io/text_file.h"
 #include "io/texture_reader.h"
 
@@ -49,6 +50,14 @@ int SceneBuilder::append_texture(const FoundFile& file) {
   return index;
 }
 
+std::shared_ptr<const Panorama> SceneBuilder::panorama(const std::vector<FoundFile>& files) {
+  std::vector<std::string> paths;
+  for (const FoundFile& file : files) paths.push_back(file.canonical);
+  auto& panorama = panoramas_[paths];
+  if (!panorama) panorama = read_panorama(paths, warnings_);
+  return panorama;
+}
+
 std::string SceneBuilder::unused_material_name(const std::string& wish) const {
   std::string name = wish;
   for (int i = 2; material_names_.contains(name); ++i) name = fmt::format("{}-{}", wish, i);
@@ -96,38 +105,9 @@ int SceneBuilder::missing_material(const MeshFile& file, std::size_t slot, const
   return default_material();
 }
 
-Bounds3 object_bounds(const Shape& shape) {
-  Bounds3 box;
-  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape)) {
-    for (vec3 p : (*mesh)->positions) box.grow(p);
-  } else if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
-    box = {vec3(-sphere->radius), vec3(sphere->radius)};
-  } else {
-    box = {vec3(-1, -1, 0), vec3(1, 1, 0)};
-  }
-  return box;
-}
+Bounds3 object_bounds(const Shape& shape) { return shape_bounds(shape); }
 
-Bounds3 scene_bounds(const SceneDesc& scene) {
-  std::map<const Mesh*, Bounds3> meshes; // shared ones are looked through once
-  Bounds3 all;
-  for (const Instance& instance : scene.instances) {
-    Bounds3 box;
-    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
-      auto [known, is_new] = meshes.try_emplace(mesh->get());
-      if (is_new) known->second = object_bounds(instance.shape);
-      box = known->second;
-    } else {
-      box = object_bounds(instance.shape);
-    }
-    if (box.empty()) continue;
-    for (int corner = 0; corner < 8; ++corner)
-      all.grow(transform_point(instance.world_from_object,
-                               {(corner & 1) ? box.hi.x : box.lo.x, (corner & 2) ? box.hi.y : box.lo.y,
-                                (corner & 4) ? box.hi.z : box.lo.z}));
-  }
-  return all;
-}
+Bounds3 scene_bounds(const SceneDesc& scene) { return instance_bounds(scene.instances); }
 
 bool has_light(const SceneDesc& scene) {
   auto shines = [&](int material) {

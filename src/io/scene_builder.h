@@ -39,6 +39,9 @@ public:
   /// The same at a new index in any case.
   int append_texture(const FoundFile& file);
 
+  /// The panorama of a file, or of six; the same files are one.
+  std::shared_ptr<const Panorama> panorama(const std::vector<FoundFile>& files);
+
   int add_material(Material material);
 
   /// The MTL's material of a slot, imported as "mesh/slot" when first asked for; -1 where the MTL has none.
@@ -58,6 +61,7 @@ private:
   WarningList& warnings_;
   std::map<std::string, std::map<std::string, MeshFile>> meshes_; ///< by canonical path, then name
   std::map<std::string, int> textures_;                           ///< by canonical path
+  std::map<std::vector<std::string>, std::shared_ptr<const Panorama>> panoramas_; ///< by canonical paths
   std::unordered_set<std::string> material_names_;
   int default_material_ = -1;
 };
@@ -65,7 +69,7 @@ private:
 /// The index of the picture for a material made from OBJ, XML…: the readers' MtlMaterial -> Material.
 int add_mtl_material(SceneBuilder& builder, const MtlMaterial& material, const std::string& name);
 
-/// Bounds of all shapes, in world space (of their boxes' corners: an upper bound).
+/// instance_bounds of all instances.
 Bounds3 scene_bounds(const SceneDesc& scene);
 
 /// Of a shape alone, in its own space.

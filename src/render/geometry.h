@@ -37,7 +37,8 @@ struct RectangleGeometry {
 
 class Geometry {
 public:
-  /// Bakes and builds. Spheres and discs that their transform would make ellipsoids are made of triangles.
+  /// Bakes and builds. Spheres and discs that their transform would make ellipsoids are made of triangles, as
+  /// are all shapes of render/shape_mesh.h.
   static std::shared_ptr<const Geometry> build(const std::vector<Instance>& instances,
                                                BuildQuality quality = BuildQuality::high);
 
@@ -50,6 +51,8 @@ public:
   std::uint32_t instance_of(const Hit& hit) const;
 
   Bounds3 bounds() const { return accel_.bounds(); }
+  /// Without planes, which are endless: the size of what is looked at.
+  Bounds3 finite_bounds() const { return finite_bounds_; }
   std::size_t memory_bytes() const;
 
   /// Every primitive that could emit has a number: world triangles, then spheres, discs, then triangles of
@@ -97,6 +100,7 @@ private:
   std::vector<Placed> placed_;
   std::uint32_t emitter_count_ = 0;
   Accel accel_;
+  Bounds3 finite_bounds_;
 };
 
 } // namespace candela

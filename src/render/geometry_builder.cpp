@@ -2,8 +2,10 @@
 // levels.
 
 #include "render/geometry.h"
+#include "render/shape_mesh.h"
 
 #include <map>
+#include <tuple>
 
 namespace candela {
 
@@ -60,8 +62,10 @@ Mesh tessellated_disc() {
 class GeometryBuilder {
 public:
   explicit GeometryBuilder(const std::vector<Instance>& instances) : instances_(instances) {
-    for (const Instance& instance : instances_)
-      if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) ++uses_[mesh->get()];
+    for (const Instance& instance : instances_) {
+      meshes_.push_back(mesh_of(instance));
+      if (meshes_.back().mesh) ++uses_[meshes_.back().mesh.get()];
+    }
   }
 
   std::shared_ptr<const Geometry> build(BuildQuality quality) {
@@ -81,6 +85,9 @@ public:
     }
     g_->accel_ =
         Accel::build({g_->world_.positions, g_->world_.triangles, g_->spheres_, g_->discs_, placed}, quality);
+    bool endless = std::ranges::any_of(
+        instances_, [](const Instance& i) { return std::holds_alternative<PlaneShape>(i.shape); });
+    g_->finite_bounds_ = endless ? instance_bounds(instances_) : g_->accel_.bounds();
     return g_;
   }
 
@@ -88,19 +95,40 @@ private:
   /// Below this many triangles in all its places, a shared mesh is baked into each of them.
   static constexpr std::size_t kBakeLimit = 4096;
 
+  /// The mesh that an instance is made of, if it is, and where it lies.
+  struct InstanceMesh {
+    std::shared_ptr<const Mesh> mesh;
+    mat4 world_from_mesh{1.0f};
+  };
+
+  InstanceMesh mesh_of(const Instance& instance) {
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape))
+      return {*mesh, instance.world_from_object};
+    auto meshed = meshed_shape(instance.shape);
+    if (!meshed) return {};
+    const Shape& standard = meshed->standard;
+    std::tuple<std::size_t, bool, float> key(standard.index(), false, 0.0f);
+    if (const auto* c = std::get_if<CylinderShape>(&standard)) std::get<bool>(key) = c->caps;
+    if (const auto* c = std::get_if<ConeShape>(&standard)) std::get<bool>(key) = c->caps;
+    if (const auto* t = std::get_if<TorusShape>(&standard)) std::get<float>(key) = t->minor_radius;
+    auto& mesh = shape_meshes_[key];
+    if (!mesh) mesh = std::make_shared<const Mesh>(shape_mesh(standard));
+    return {mesh, instance.world_from_object * meshed->shape_from_standard};
+  }
+
   void add(std::uint32_t index) {
     const Instance& instance = instances_[index];
-    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
-      std::size_t uses = uses_[mesh->get()];
-      if (uses == 1 || uses * (*mesh)->triangles.size() <= kBakeLimit)
-        bake(**mesh, index);
+    if (const auto& [mesh, world_from_mesh] = meshes_[index]; mesh) {
+      std::size_t uses = uses_[mesh.get()];
+      if (uses == 1 || uses * mesh->triangles.size() <= kBakeLimit)
+        bake(*mesh, world_from_mesh, index);
       else
-        place(**mesh, index);
+        place(*mesh, world_from_mesh, index);
     } else if (const auto* sphere = std::get_if<SphereShape>(&instance.shape)) {
       if (is_similarity(instance.world_from_object))
         add_sphere(sphere->radius, index);
       else
-        bake(tessellated_sphere(sphere->radius), index);
+        bake(tessellated_sphere(sphere->radius), instance.world_from_object, index);
     } else if (std::holds_alternative<RectangleShape>(instance.shape)) {
       add_rectangle(index);
     } else {
@@ -111,7 +139,7 @@ private:
       if (round)
         add_disc(index);
       else
-        bake(tessellated_disc(), index);
+        bake(tessellated_disc(), m, index);
     }
   }
 
@@ -127,9 +155,8 @@ private:
     return static_cast<std::uint32_t>(instance.materials[slot]);
   }
 
-  void bake(const Mesh& mesh, std::uint32_t index) {
+  void bake(const Mesh& mesh, const mat4& m, std::uint32_t index) {
     const Instance& instance = instances_[index];
-    const mat4& m = instance.world_from_object;
     mat3 normal_to_world = glm::transpose(glm::inverse(mat3(m)));
     // A mirroring transform turns the winding around; turn it back so that outside stays outside.
     bool mirrored = glm::determinant(mat3(m)) < 0;
@@ -158,7 +185,7 @@ private:
     }
   }
 
-  void place(const Mesh& mesh, std::uint32_t index) {
+  void place(const Mesh& mesh, const mat4& world_from_mesh, std::uint32_t index) {
     const Instance& instance = instances_[index];
     auto [entry, is_new] = object_of_.try_emplace(&mesh, static_cast<std::uint32_t>(g_->objects_.size()));
     if (is_new) {
@@ -169,7 +196,7 @@ private:
     }
     Geometry::Placed p{};
     p.object = entry->second;
-    p.world_from_object = instance.world_from_object;
+    p.world_from_object = world_from_mesh;
     p.object_from_world = glm::inverse(p.world_from_object);
     // It maps outward to outward, mirrored or not; the winding plays no part in a placed object's normals.
     p.normal_to_world = glm::transpose(mat3(p.object_from_world));
@@ -218,6 +245,8 @@ private:
 
   const std::vector<Instance>& instances_;
   std::shared_ptr<Geometry> g_ = std::make_shared<Geometry>();
+  std::vector<InstanceMesh> meshes_; ///< parallel to instances_
+  std::map<std::tuple<std::size_t, bool, float>, std::shared_ptr<const Mesh>> shape_meshes_;
   std::map<const Mesh*, std::size_t> uses_;
   std::map<const Mesh*, std::uint32_t> object_of_;
   bool world_normals_ = false, world_uvs_ = false;

@@ -128,12 +128,43 @@ float DiscLight::pdf(const LightReference& ref, vec3 point, vec3) const {
   return solid_angle_density(ref, point, normal, kPi * sqr(radius), two_sided);
 }
 
-std::optional<LightSample> PointLight::sample(const LightReference& ref, vec2) const {
+namespace {
+
+/// What LightDesc::attenuation divides by.
+template <class T>
+T attenuation_at(T r, vec3 attenuation) {
+  T a(attenuation.x), b(attenuation.y), c(attenuation.z);
+  return a + b * r + c * (r * r);
+}
+
+/// Of a light at a point whose intensity towards the reference is `intensity`.
+std::optional<LightSample> sample_point(const LightReference& ref, vec3 position, vec3 intensity,
+                                        vec3 attenuation) {
   float distance2 = length_squared(position - ref.position);
   if (!(distance2 > 0)) return std::nullopt;
-  LightSample s = towards(ref, position, vec3(0), vec3(0), intensity / distance2, 1);
+  float divisor = attenuation.z * distance2;
+  if (attenuation.x > 0 || attenuation.y > 0) divisor = attenuation_at(std::sqrt(distance2), attenuation);
+  LightSample s = towards(ref, position, vec3(0), vec3(0), intensity / divisor, 1);
   s.delta = true;
   return s;
+}
+
+} // namespace
+
+std::optional<LightSample> PointLight::sample(const LightReference& ref, vec2) const {
+  return sample_point(ref, position, intensity, attenuation);
+}
+
+float SpotLight::falloff(float angle) const {
+  if (angle >= cutoff_angle) return 0;
+  return angle <= beam_width ? 1 : (cutoff_angle - angle) / (cutoff_angle - beam_width);
+}
+
+std::optional<LightSample> SpotLight::sample(const LightReference& ref, vec2) const {
+  vec3 d = ref.position - position;
+  float share = falloff(std::atan2(glm::length(glm::cross(axis, d)), glm::dot(axis, d)));
+  if (share == 0) return std::nullopt;
+  return sample_point(ref, position, share * intensity, attenuation);
 }
 
 std::optional<LightSample> DirectionalLight::sample(const LightReference&, vec2) const {
@@ -157,13 +188,31 @@ std::optional<LightSample> ConstantLight::sample(const LightReference& ref, vec2
   return s;
 }
 
+std::optional<LightSample> EnvironmentLight::sample(const LightReference& ref, vec2 u) const {
+  auto local = map->sample(u);
+  if (!local) return std::nullopt;
+  LightSample s;
+  s.direction = world_from_map * *local;
+  s.radiance = radiance_from(s.direction);
+  s.pdf = pdf(ref, {}, s.direction);
+  s.infinite = true;
+  if (!(s.pdf > 0)) return std::nullopt;
+  return s;
+}
+
 float light_power(const Light& light, float scene_radius) {
   auto area_power = [](vec3 emission, float area, bool two_sided) {
     return luminance(emission) * area * kPi * (two_sided ? 2.0f : 1.0f);
   };
   float section = kPi * sqr(scene_radius); // of the scene, for what comes from afar
+  // A reference as far away as the scene is large, for what does not fall with the square of the distance.
+  auto distant = [&](vec3 attenuation) {
+    double r = static_cast<double>(scene_radius);
+    return static_cast<float>(r * r / attenuation_at(r, attenuation));
+  };
   struct Visitor {
     decltype(area_power)& area;
+    decltype(distant)& relative;
     float section;
     float operator()(const TriangleLight& l) const { return area(l.emission, l.area, l.two_sided); }
     float operator()(const RectangleLight& l) const { return area(l.emission, l.area, l.two_sided); }
@@ -171,11 +220,22 @@ float light_power(const Light& light, float scene_radius) {
       return area(l.emission, 4 * kPi * sqr(l.radius), l.two_sided);
     }
     float operator()(const DiscLight& l) const { return area(l.emission, kPi * sqr(l.radius), l.two_sided); }
-    float operator()(const PointLight& l) const { return 4 * kPi * luminance(l.intensity); }
+    float operator()(const PointLight& l) const {
+      return 4 * kPi * luminance(l.intensity) * relative(l.attenuation);
+    }
+    float operator()(const SpotLight& l) const { // the integral of falloff over the sphere
+      float ramp = l.cutoff_angle - l.beam_width;
+      float mean_cosine = ramp > 1e-4f ? (std::sin(l.cutoff_angle) - std::sin(l.beam_width)) / ramp
+                                       : std::cos(l.cutoff_angle);
+      return 2 * kPi * (1 - mean_cosine) * luminance(l.intensity) * relative(l.attenuation);
+    }
     float operator()(const DirectionalLight& l) const { return luminance(l.irradiance) * section; }
     float operator()(const ConstantLight& l) const { return luminance(l.radiance) * 4 * kPi * section; }
+    float operator()(const EnvironmentLight& l) const {
+      return luminance(l.factor) * l.map->total_luminance() * section;
+    }
   };
-  return std::visit(Visitor{area_power, section}, light);
+  return std::visit(Visitor{area_power, distant, section}, light);
 }
 
 } // namespace candela

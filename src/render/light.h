@@ -3,6 +3,7 @@
 
 #include "core/basis.h"
 #include "core/ray.h"
+#include "render/environment_map.h"
 #include "sampling/spherical_rectangle.h"
 #include "sampling/warp.h"
 
@@ -78,8 +79,22 @@ struct DiscLight {
 
 struct PointLight {
   vec3 position{0};
-  vec3 intensity{0}; ///< W/sr
+  vec3 intensity{0};         ///< W/sr
+  vec3 attenuation{0, 0, 1}; ///< of LightDesc
 
+  std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
+  float pdf(const LightReference&, vec3, vec3) const { return 0; }
+};
+
+struct SpotLight {
+  vec3 position{0};
+  vec3 axis{0, -1, 0};                    ///< unit
+  float beam_width = 0, cutoff_angle = 0; ///< radians from the axis, beam_width <= cutoff_angle
+  vec3 intensity{0};                      ///< W/sr within the beam
+  vec3 attenuation{0, 0, 1};              ///< of LightDesc
+
+  /// Share of the intensity at an angle to the axis.
+  float falloff(float angle) const;
   std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
   float pdf(const LightReference&, vec3, vec3) const { return 0; }
 };
@@ -104,8 +119,21 @@ struct ConstantLight {
   }
 };
 
+/// A panorama, sampled in proportion to what it sends.
+struct EnvironmentLight {
+  const EnvironmentMap* map = nullptr;
+  mat3 world_from_map{1.0f}; ///< a rotation
+  vec3 factor{1};
+
+  vec3 radiance_from(vec3 direction) const { return factor * map->radiance(direction * world_from_map); }
+  std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
+  float pdf(const LightReference&, vec3, vec3 direction) const {
+    return map->pdf(direction * world_from_map);
+  }
+};
+
 using Light = std::variant<RectangleLight, TriangleLight, SphereLight, DiscLight, PointLight,
-                           DirectionalLight, ConstantLight>;
+                           DirectionalLight, ConstantLight, SpotLight, EnvironmentLight>;
 
 inline std::optional<LightSample> sample_light(const Light& light, const LightReference& ref, vec2 u) {
   return std::visit([&](const auto& l) { return l.sample(ref, u); }, light);
@@ -126,11 +154,12 @@ inline vec3 light_radiance(const Light& light, vec3 direction) {
       light);
 }
 inline bool is_delta_light(const Light& light) {
-  return std::holds_alternative<PointLight>(light) || std::holds_alternative<DirectionalLight>(light);
+  return std::holds_alternative<PointLight>(light) || std::holds_alternative<SpotLight>(light) ||
+         std::holds_alternative<DirectionalLight>(light);
 }
 
-/// Emitted power in W for choosing among lights; of infinite ones that which meets a scene of the given
-/// radius.
+/// Emitted power in W for choosing among lights; of infinite ones, and of those whose attenuation is not
+/// physical, that which meets a scene of the given radius.
 float light_power(const Light& light, float scene_radius);
 
 } // namespace candela

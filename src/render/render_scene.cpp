@@ -20,6 +20,15 @@ Bsdf make_bsdf(MaterialType type, vec3 diffuse, vec3 specular, float exponent, f
   return Diffuse{diffuse};
 }
 
+/// First `rotation` about +y, then the smallest turn that takes +y to `up`.
+mat3 world_from_panorama(const LightDesc& light) {
+  glm::dvec3 up = glm::normalize(glm::dvec3(light.up)), y(0, 1, 0), axis = glm::cross(y, up);
+  double sine = glm::length(axis), tilt = std::atan2(sine, up.y);
+  axis = sine > 0 ? axis / sine : glm::dvec3(1, 0, 0);
+  glm::dmat4 turn = glm::rotate(glm::dmat4(1), tilt, axis);
+  return mat3(glm::rotate(turn, static_cast<double>(light.rotation), y));
+}
+
 MaterialType override_type(BrdfOverride o) { return static_cast<MaterialType>(static_cast<int>(o) - 1); }
 
 } // namespace
@@ -38,10 +47,10 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document, 
   scene->textures_ = desc.textures;
   scene->add_materials(document);
   scene->add_emitters();
-  scene->add_lights(desc.lights);
+  scene->add_lights(desc.lights, previous);
 
   std::vector<float> power, delta_power;
-  Bounds3 bounds = scene->geometry_->bounds();
+  Bounds3 bounds = scene->geometry_->finite_bounds();
   float radius = bounds.empty() ? 1.0f : std::max(0.5f * glm::length(bounds.diagonal()), 1e-6f);
   for (const Light& light : scene->lights_) {
     power.push_back(light_power(light, radius));
@@ -141,18 +150,44 @@ void RenderScene::add_emitters() {
   }
 }
 
-void RenderScene::add_lights(const std::vector<LightDesc>& lights) {
+const EnvironmentMap* RenderScene::environment_map(const LightDesc& light, const RenderScene* previous) {
+  auto fits = [&](const auto& map) {
+    return map->panorama() == light.panorama && map->mapping() == light.mapping;
+  };
+  auto own = std::ranges::find_if(environment_maps_, fits);
+  if (own != environment_maps_.end()) return own->get();
+  std::shared_ptr<const EnvironmentMap> map;
+  if (previous != nullptr) {
+    auto known = std::ranges::find_if(previous->environment_maps_, fits);
+    if (known != previous->environment_maps_.end()) map = *known;
+  }
+  if (!map) map = std::make_shared<const EnvironmentMap>(light.panorama, light.mapping);
+  environment_maps_.push_back(map);
+  return map.get();
+}
+
+void RenderScene::add_lights(const std::vector<LightDesc>& lights, const RenderScene* previous) {
   for (const LightDesc& l : lights) {
     vec3 color = l.color * l.scale;
     if (is_black(color)) continue;
+    bool infinite = l.type == LightType::constant || l.type == LightType::environment;
+    if (infinite) infinite_lights_.push_back(static_cast<std::uint32_t>(lights_.size()));
     switch (l.type) {
-    case LightType::point: lights_.emplace_back(PointLight{l.position, color}); break;
+    case LightType::point: lights_.emplace_back(PointLight{l.position, color, l.attenuation}); break;
+    case LightType::spot:
+      lights_.emplace_back(SpotLight{l.position, glm::normalize(l.direction),
+                                     std::min(l.beam_width, l.cutoff_angle), l.cutoff_angle, color,
+                                     l.attenuation});
+      break;
     case LightType::directional:
       lights_.emplace_back(DirectionalLight{glm::normalize(l.direction), color});
       break;
-    case LightType::constant:
-      infinite_lights_.push_back(static_cast<std::uint32_t>(lights_.size()));
-      lights_.emplace_back(ConstantLight{color});
+    case LightType::constant: lights_.emplace_back(ConstantLight{color}); break;
+    case LightType::environment:
+      if (l.panorama)
+        lights_.emplace_back(EnvironmentLight{environment_map(l, previous), world_from_panorama(l), color});
+      else
+        lights_.emplace_back(ConstantLight{color});
       break;
     }
   }
@@ -162,6 +197,7 @@ std::size_t RenderScene::memory_bytes() const {
   std::size_t bytes = geometry_->memory_bytes() + materials_.size() * sizeof(SurfaceMaterial) +
                       lights_.size() * sizeof(Light) + light_of_emitter_.size() * sizeof(std::uint32_t);
   for (const auto& texture : textures_) bytes += texture->srgb.size();
+  for (const auto& map : environment_maps_) bytes += map->memory_bytes();
   return bytes;
 }
 

@@ -25,7 +25,7 @@ inline constexpr std::uint32_t kNoLight = 0xffffffffu;
 
 class RenderScene {
 public:
-  /// Reuses the geometry of `previous` where the instances are the same.
+  /// Reuses the geometry of `previous` where the instances are the same, and what it made of panoramas.
   static std::shared_ptr<const RenderScene> build(const Document& document,
                                                   const RenderScene* previous = nullptr,
                                                   BuildQuality quality = BuildQuality::high);
@@ -57,12 +57,14 @@ private:
   std::vector<Light> lights_;
   std::vector<std::uint32_t> light_of_emitter_; ///< empty where no surface shines
   std::vector<std::uint32_t> infinite_lights_;
+  std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
   AliasTable all_lights_, delta_lights_;
   bool has_transparency_ = false;
 
   void add_materials(const Document& document);
   void add_emitters();
-  void add_lights(const std::vector<LightDesc>& lights);
+  void add_lights(const std::vector<LightDesc>& lights, const RenderScene* previous);
+  const EnvironmentMap* environment_map(const LightDesc& light, const RenderScene* previous);
 };
 
 /// The material's BSDF, without its texture.

@@ -13,6 +13,13 @@ bool same_value(const std::shared_ptr<const T>& a, const std::shared_ptr<const T
   return a == b || (a && b && *a == *b);
 }
 
+bool same_light(const LightDesc& a, const LightDesc& b) {
+  if (!same_value(a.panorama, b.panorama)) return false;
+  LightDesc c = b;
+  c.panorama = a.panorama;
+  return a == c;
+}
+
 bool same_shape(const Shape& a, const Shape& b) {
   const auto* mesh_a = std::get_if<std::shared_ptr<const Mesh>>(&a);
   const auto* mesh_b = std::get_if<std::shared_ptr<const Mesh>>(&b);
@@ -50,6 +57,25 @@ std::string mesh_problem(const Mesh& mesh) {
   return {};
 }
 
+std::string light_problem(const LightDesc& light) {
+  auto lacks = [&](std::string_view key, vec3 value) {
+    return light_uses(light.type, key) && glm::length(value) == 0;
+  };
+  if (lacks("direction", light.direction)) return "direction: is zero";
+  if (lacks("attenuation", light.attenuation)) return "attenuation: is zero";
+  if (lacks("up", light.up)) return "up: is zero";
+  if (light.panorama) {
+    const Image& image = light.panorama->image;
+    if (image.width <= 0 || image.height <= 0 ||
+        image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+      return "panorama: its pixels do not fit its size";
+    for (vec3 pixel : image.pixels)
+      if (!(is_finite(pixel) && min_component(pixel) >= 0))
+        return "panorama: a pixel is negative or not finite";
+  }
+  return {};
+}
+
 /// `checked` holds the meshes that are known to be well: many instances may share one.
 std::string instance_problem(const SceneDesc& scene, const Instance& instance, std::size_t index,
                              std::set<const Mesh*>& checked) {
@@ -60,9 +86,8 @@ std::string instance_problem(const SceneDesc& scene, const Instance& instance, s
     if (checked.insert(mesh->get()).second)
       if (auto problem = mesh_problem(**mesh); !problem.empty())
         return fmt::format("instances[{}].mesh: {}", index, problem);
-  } else if (const auto* sphere = std::get_if<SphereShape>(&instance.shape);
-             sphere && !(sphere->radius > 0 && std::isfinite(sphere->radius))) {
-    return fmt::format("instances[{}].radius: {} is not a positive number", index, sphere->radius);
+  } else if (auto problem = shape_problem(instance.shape); !problem.empty()) {
+    return fmt::format("instances[{}].{}", index, problem);
   }
   if (instance.materials.size() != slots)
     return fmt::format("instances[{}].materials: {} given for {} slots", index, instance.materials.size(),
@@ -142,8 +167,8 @@ Invalidates compare_documents(const Document& before, const Document& after) {
 bool same_content(const Document& a, const Document& b) {
   const SceneDesc &s = a.scene, &t = b.scene;
   if (a.settings != b.settings || s.camera != t.camera || s.bookmarks != t.bookmarks ||
-      s.materials != t.materials || s.lights != t.lights || s.instances.size() != t.instances.size() ||
-      s.textures.size() != t.textures.size())
+      s.materials != t.materials || !std::ranges::equal(s.lights, t.lights, same_light) ||
+      s.instances.size() != t.instances.size() || s.textures.size() != t.textures.size())
     return false;
   for (std::size_t i = 0; i < s.textures.size(); ++i)
     if (!same_value(s.textures[i], t.textures[i])) return false;
@@ -170,8 +195,7 @@ std::string document_problem(const Document& document) {
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const LightDesc& light = scene.lights[i];
     if (auto p = row_problem(light_fields(), light, fmt::format("lights[{}].", i)); !p.empty()) return p;
-    if (light.type == LightType::directional && glm::length(light.direction) == 0)
-      return fmt::format("lights[{}].direction: is zero", i);
+    if (auto p = light_problem(light); !p.empty()) return fmt::format("lights[{}].{}", i, p);
   }
   std::set<const Mesh*> checked;
   for (std::size_t i = 0; i < scene.instances.size(); ++i)

@@ -1,13 +1,17 @@
 #include "scene/scene_desc.h"
 
-#include <array>
+#include <fmt/format.h>
+
+#include <iterator>
+#include <map>
 
 namespace candela {
 
 namespace {
 
 constexpr std::string_view kMaterialTypes[] = {"diffuse", "phong", "ggx", "mirror", "dielectric"};
-constexpr std::string_view kLightTypes[] = {"point", "directional", "constant"};
+constexpr std::string_view kLightTypes[] = {"point", "directional", "constant", "spot", "environment"};
+constexpr std::string_view kMappings[] = {"latlong", "angular", "cross", "faces"};
 constexpr auto kInf = std::numeric_limits<double>::infinity();
 
 using M = Material;
@@ -68,20 +72,44 @@ const Field<Material> kMaterialFields[] = {
 };
 
 const Field<LightDesc> kLightFields[] = {
-    {{"type", FieldType::choice, 0, 0, "", "point, directional (a distant one) or constant (all around)",
+    {{"type", FieldType::choice, 0, 0, "",
+      "point, directional (a distant one), constant (all around), spot or environment (a panorama)",
       Invalidates::scene, kLightTypes},
      member<L, &L::type>},
-    {{"position", FieldType::point, -kInf, kInf, "", "Where the point light is", Invalidates::scene},
+    {{"position", FieldType::point, -kInf, kInf, "", "Where the light is", Invalidates::scene},
      member<L, &L::position>},
-    {{"direction", FieldType::point, -kInf, kInf, "", "The direction in which the light travels",
-      Invalidates::scene},
+    {{"direction", FieldType::point, -kInf, kInf, "",
+      "The direction in which the light travels; the axis of a spot", Invalidates::scene},
      member<L, &L::direction>},
+    {{"cutoff_angle", FieldType::angle, 0.01, 180, "degrees",
+      "Angle from a spot's axis beyond which there is no light", Invalidates::scene},
+     member<L, &L::cutoff_angle>},
+    {{"beam_width", FieldType::angle, 0, 180, "degrees",
+      "Angle from a spot's axis up to which the intensity is full; from there it falls to the cutoff",
+      Invalidates::scene},
+     member<L, &L::beam_width>},
+    {{"attenuation", FieldType::point, 0, 1e9, "",
+      "a b c: intensity / (a + b r + c r^2) arrives at the distance r; 0 0 1 is physical",
+      Invalidates::scene},
+     member<L, &L::attenuation>},
+    {{"mapping", FieldType::choice, 0, 0, "",
+      "How the panorama shows the directions: latitude and longitude, Debevec's angular map, the cross of a "
+      "cube, its six faces",
+      Invalidates::scene, kMappings},
+     member<L, &L::mapping>},
+    {{"rotation", FieldType::angle, -360, 360, "degrees",
+      "Turns the panorama about its up axis, counter-clockwise seen from above", Invalidates::scene},
+     member<L, &L::rotation>},
+    {{"up", FieldType::point, -kInf, kInf, "", "The direction that is up in the panorama",
+      Invalidates::scene},
+     member<L, &L::up>},
     {{"color",
       FieldType::color,
       0,
       1e9,
       "",
-      "point: W/sr; directional: W/m^2 on a surface that faces it; constant: W/(m^2 sr)",
+      "point, spot: W/sr; directional: W/m^2 on a surface that faces it; constant: W/(m^2 sr); environment: "
+      "a factor",
       Invalidates::scene,
       {},
       true},
@@ -89,6 +117,39 @@ const Field<LightDesc> kLightFields[] = {
     {{"scale", FieldType::real, 0, 1e9, "", "Multiplies the colour", Invalidates::scene, {}, true},
      member<L, &L::scale>},
 };
+
+constexpr std::string_view kShapeNames[] = {"mesh", "sphere",   "rectangle", "disc", "plane",
+                                            "cube", "cylinder", "cone",      "torus"};
+static_assert(std::size(kShapeNames) == std::variant_size_v<Shape>);
+
+/// Lengths may be anything above 0; whether they are is shape_problem's to say, for a row's minimum is
+/// included.
+template <class S, auto Member>
+void* shape_member(Shape& shape) {
+  return &(std::get<S>(shape).*Member);
+}
+template <class S, auto Member>
+constexpr Field<Shape> length_row(std::string_view key, std::string_view help) {
+  return {{key, FieldType::real, 0, kInf, "scene units", help, Invalidates::scene, {}, true},
+          shape_member<S, Member>};
+}
+template <class S, auto Member>
+constexpr Field<Shape> caps_row(std::string_view help) {
+  return {{"caps", FieldType::boolean, 0, 0, "", help, Invalidates::scene}, shape_member<S, Member>};
+}
+
+const Field<Shape> kSphereFields[] = {length_row<SphereShape, &SphereShape::radius>("radius", "Radius")};
+const Field<Shape> kCylinderFields[] = {
+    length_row<CylinderShape, &CylinderShape::radius>("radius", "Radius"),
+    length_row<CylinderShape, &CylinderShape::height>("height", "Length along z, from 0"),
+    caps_row<CylinderShape, &CylinderShape::caps>("Closed by discs at both ends")};
+const Field<Shape> kConeFields[] = {
+    length_row<ConeShape, &ConeShape::radius>("radius", "Radius of the base, in z = 0"),
+    length_row<ConeShape, &ConeShape::height>("height", "The apex is there on the z axis"),
+    caps_row<ConeShape, &ConeShape::caps>("Closed by the disc of its base")};
+const Field<Shape> kTorusFields[] = {
+    length_row<TorusShape, &TorusShape::radius>("radius", "Of the circle about which the tube lies"),
+    length_row<TorusShape, &TorusShape::minor_radius>("minor_radius", "Of the tube; below radius")};
 
 } // namespace
 
@@ -106,9 +167,87 @@ bool material_uses(MaterialType type, std::string_view key) {
 }
 
 bool light_uses(LightType type, std::string_view key) {
-  if (key == "position") return type == LightType::point;
-  if (key == "direction") return type == LightType::directional;
+  using enum LightType;
+  if (key == "position" || key == "attenuation") return type == point || type == spot;
+  if (key == "direction") return type == directional || type == spot;
+  if (key == "cutoff_angle" || key == "beam_width") return type == spot;
+  if (key == "mapping" || key == "rotation" || key == "up") return type == environment;
   return true;
+}
+
+std::span<const std::string_view> shape_names() { return kShapeNames; }
+std::string_view shape_name(const Shape& shape) { return kShapeNames[shape.index()]; }
+
+std::optional<Shape> shape_of_name(std::string_view name) {
+  const Shape kinds[] = {SphereShape{}, RectangleShape{}, DiscShape{}, PlaneShape{},
+                         CubeShape{},   CylinderShape{},  ConeShape{}, TorusShape{}};
+  for (const Shape& shape : kinds)
+    if (shape_name(shape) == name) return shape;
+  return std::nullopt;
+}
+
+std::span<const Field<Shape>> shape_fields(const Shape& shape) {
+  if (std::holds_alternative<SphereShape>(shape)) return kSphereFields;
+  if (std::holds_alternative<CylinderShape>(shape)) return kCylinderFields;
+  if (std::holds_alternative<ConeShape>(shape)) return kConeFields;
+  if (std::holds_alternative<TorusShape>(shape)) return kTorusFields;
+  return {};
+}
+
+Bounds3 shape_bounds(const Shape& shape) {
+  Bounds3 box{vec3(-1, -1, 0), vec3(1, 1, 0)}; // of rectangles, discs, planes
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape)) {
+    box = {};
+    for (vec3 p : (*mesh)->positions) box.grow(p);
+  } else if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
+    box = {vec3(-sphere->radius), vec3(sphere->radius)};
+  } else if (std::holds_alternative<CubeShape>(shape)) {
+    box = {vec3(-1), vec3(1)};
+  } else if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) {
+    box = {vec3(-cylinder->radius, -cylinder->radius, 0),
+           vec3(cylinder->radius, cylinder->radius, cylinder->height)};
+  } else if (const auto* cone = std::get_if<ConeShape>(&shape)) {
+    box = {vec3(-cone->radius, -cone->radius, 0), vec3(cone->radius, cone->radius, cone->height)};
+  } else if (const auto* torus = std::get_if<TorusShape>(&shape)) {
+    vec3 corner(vec2(torus->radius + torus->minor_radius), torus->minor_radius);
+    box = {-corner, corner};
+  }
+  return box;
+}
+
+Bounds3 instance_bounds(const std::vector<Instance>& instances) {
+  std::map<const Mesh*, Bounds3> meshes; // shared ones are looked through once
+  Bounds3 all, planes;
+  for (const Instance& instance : instances) {
+    Bounds3 box;
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
+      auto [known, is_new] = meshes.try_emplace(mesh->get());
+      if (is_new) known->second = shape_bounds(instance.shape);
+      box = known->second;
+    } else {
+      box = shape_bounds(instance.shape);
+    }
+    if (box.empty()) continue;
+    Bounds3& grown = std::holds_alternative<PlaneShape>(instance.shape) ? planes : all;
+    for (int corner = 0; corner < 8; ++corner)
+      grown.grow(transform_point(instance.world_from_object,
+                                 {(corner & 1) ? box.hi.x : box.lo.x, (corner & 2) ? box.hi.y : box.lo.y,
+                                  (corner & 4) ? box.hi.z : box.lo.z}));
+  }
+  return all.empty() ? planes : all;
+}
+
+std::string shape_problem(const Shape& shape) {
+  for (const auto& row : shape_fields(shape)) {
+    if (row.type != FieldType::real) continue;
+    float value = *static_cast<const float*>(row.address(const_cast<Shape&>(shape)));
+    if (!(value > 0 && std::isfinite(value)))
+      return fmt::format("{}: {} is not a positive number", row.key, value);
+  }
+  const auto* torus = std::get_if<TorusShape>(&shape);
+  if (torus != nullptr && !(torus->minor_radius < torus->radius))
+    return fmt::format("minor_radius: {} is not below the radius {}", torus->minor_radius, torus->radius);
+  return {};
 }
 
 } // namespace candela

@@ -2,10 +2,12 @@
 // What a scene is made of: values, cheap to copy (bulk data is shared), edited by the UI and the command
 // line.
 
+#include "core/bounds.h"
 #include "core/fields.h"
 #include "scene/mesh.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -54,22 +56,38 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-enum class LightType : int { point, directional, constant };
+enum class LightType : int { point, directional, constant, spot, environment };
+
+/// Where a panorama has which direction; see render/environment_map.h for the axes.
+enum class EnvironmentMapping : int { latlong, angular, cross, faces };
 
 /// A light without a shape; shapes shine by their material's emission.
 struct LightDesc {
   std::string name;
   LightType type = LightType::point;
-  vec3 position{0};         ///< of point
-  vec3 direction{0, -1, 0}; ///< the light travels along it, of directional; any length
-  /// point: intensity, W/sr; directional: irradiance on a surface facing it, W/m^2; constant: radiance,
-  /// W/(m^2 sr)
+  vec3 position{0};         ///< of point and spot
+  vec3 direction{0, -1, 0}; ///< the light travels along it, of directional; the axis of spot; any length
+  /// Half the opening angle of spot, radians: no light beyond it. Full intensity within beam_width of the
+  /// axis, falling linearly with the angle between the two, as in Mitsuba; a wider beam is cut off sharply.
+  float cutoff_angle = radians(20.0f);
+  float beam_width = radians(15.0f);
+  /// Coefficients a, b, c of point and spot: at the distance r the irradiance on a facing surface is
+  /// intensity / (a + b r + c r^2). Anything but (0, 0, 1) is not physical.
+  vec3 attenuation{0, 0, 1};
+  std::shared_ptr<const Panorama> panorama; ///< of environment; null: the same from everywhere
+  EnvironmentMapping mapping = EnvironmentMapping::latlong;
+  float rotation = 0; ///< radians, turns the panorama about `up`, counter-clockwise seen from its tip
+  vec3 up{0, 1, 0};   ///< what the panorama's up (its +y) is in the world, of environment; any length
+  /// point, spot: intensity on the axis, W/sr; directional: irradiance on a surface facing it, W/m^2;
+  /// constant: radiance, W/(m^2 sr); environment: factor of the panorama's radiance
   vec3 color{1};
-  float scale = 1; ///< multiplies color
-  bool operator==(const LightDesc&) const = default;
+  float scale = 1;                                   ///< multiplies color
+  bool operator==(const LightDesc&) const = default; ///< the panorama by identity
 };
 
-struct SphereShape { ///< of the given radius about the origin of its instance
+// Shapes, in the space of their instance. Those with a `radius` stand on or lie around the z axis.
+
+struct SphereShape { ///< of the given radius about the origin
   float radius = 1;
   bool operator==(const SphereShape&) const = default;
 };
@@ -79,7 +97,28 @@ struct RectangleShape { ///< [-1, 1]^2 in the xy plane, normal +z, as in Mitsuba
 struct DiscShape { ///< unit disc in the xy plane, normal +z
   bool operator==(const DiscShape&) const = default;
 };
-using Shape = std::variant<std::shared_ptr<const Mesh>, SphereShape, RectangleShape, DiscShape>;
+struct PlaneShape { ///< the xy plane as far as one can see, normal +z; uv = xy, so textures repeat
+  bool operator==(const PlaneShape&) const = default;
+};
+struct CubeShape { ///< [-1, 1]^3, as in Mitsuba
+  bool operator==(const CubeShape&) const = default;
+};
+struct CylinderShape { ///< from z = 0 to z = height
+  float radius = 1, height = 1;
+  bool caps = true; ///< closed by discs
+  bool operator==(const CylinderShape&) const = default;
+};
+struct ConeShape { ///< from the base in z = 0 to the apex in z = height
+  float radius = 1, height = 1;
+  bool caps = true; ///< closed by the disc of its base
+  bool operator==(const ConeShape&) const = default;
+};
+struct TorusShape { ///< a tube about the circle of `radius` in the xy plane; minor_radius below radius
+  float radius = 1, minor_radius = 0.25f;
+  bool operator==(const TorusShape&) const = default;
+};
+using Shape = std::variant<std::shared_ptr<const Mesh>, SphereShape, RectangleShape, DiscShape, PlaneShape,
+                           CubeShape, CylinderShape, ConeShape, TorusShape>;
 
 /// A shape somewhere in the scene. Several instances may share one mesh.
 struct Instance {
@@ -104,12 +143,29 @@ struct SceneDesc {
   std::vector<LightDesc> lights;
   std::vector<Instance> instances;
   std::vector<std::shared_ptr<const Texture>> textures;
-  bool operator==(const SceneDesc&) const = default; ///< meshes and textures by identity
+  bool operator==(const SceneDesc&) const = default; ///< meshes and pictures by identity
 };
+
+/// In the shape's own space; of planes the unit square's.
+Bounds3 shape_bounds(const Shape& shape);
+
+/// Bounds in world space of all shapes but planes (of their boxes' corners: an upper bound); of planes' unit
+/// squares where there is nothing else.
+Bounds3 instance_bounds(const std::vector<Instance>& instances);
 
 /// Rows of the editable values; names, transforms and texture links are not in them.
 std::span<const Field<Material>> material_fields();
 std::span<const Field<LightDesc>> light_fields();
+
+/// What files call the kinds of shapes, by the index of the variant: "mesh", "sphere" …
+std::span<const std::string_view> shape_names();
+std::string_view shape_name(const Shape& shape);
+/// The default shape of a name other than mesh; nothing for any other.
+std::optional<Shape> shape_of_name(std::string_view name);
+/// Rows of the values of a shape's kind; their addresses are those in a Shape that holds this kind.
+std::span<const Field<Shape>> shape_fields(const Shape& shape);
+/// What the rows cannot say: "minor_radius: …"; empty where all is well.
+std::string shape_problem(const Shape& shape);
 
 /// Whether a material (light) of this type looks at the field: panels show only these.
 bool material_uses(MaterialType type, std::string_view key);

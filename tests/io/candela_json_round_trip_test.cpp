@@ -141,7 +141,12 @@ TEST_F(CandelaJsonRoundTrip, RandomDocuments) {
                       std::shared_ptr<const Mesh>(mesh),
                       SphereShape{std::abs(normal(random))},
                       RectangleShape{},
-                      DiscShape{}};
+                      DiscShape{},
+                      PlaneShape{},
+                      CubeShape{},
+                      CylinderShape{std::abs(normal(random)), std::abs(normal(random)), round % 2 == 0},
+                      ConeShape{std::abs(normal(random)), 1, round % 3 == 0},
+                      TorusShape{200, std::abs(std::fmod(normal(random), 200.0f))}};
     for (const Shape& shape : shapes) {
       Instance instance;
       instance.name = round % 2 ? "i" : "";
@@ -211,6 +216,29 @@ TEST_F(CandelaJsonRoundTrip, Textures) {
   made->name = "made", made->width = 1, made->height = 2, made->srgb = {1, 2, 3, 4, 5, 255};
   document.scene.textures.push_back(made);
   document.scene.materials[2].diffuse_texture = 2;
+  check(document);
+}
+
+TEST_F(CandelaJsonRoundTrip, Panoramas) {
+  files.write("sky/a.png", test::tiny_png());
+  files.write("s.json", R"({"candela": 1, "lights": [
+      {"type": "environment", "file": "sky/a.png", "rotation": 90, "scale": 2},
+      {"type": "environment", "file": "sky/a.png", "mapping": "angular", "up": [0, 0, 1]},
+      {"type": "environment", "files": ["sky/a.png", "sky/a.png", "sky/a.png", "sky/a.png", "sky/a.png", "sky/a.png"]}]})");
+  Document document = files.read("s.json").document;
+  const auto& lights = document.scene.lights;
+  ASSERT_EQ(lights.size(), 3u);
+  ASSERT_TRUE(lights[0].panorama);
+  EXPECT_EQ(lights[0].panorama, lights[1].panorama) << "one file is read once";
+  EXPECT_EQ(lights[0].panorama->image.pixels, (std::vector<vec3>{{1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(lights[2].mapping, EnvironmentMapping::faces);
+  EXPECT_EQ(lights[2].panorama->image.height, 6);
+  check(document);
+  EXPECT_NE(test::read_text(files / "out.json").find("\"file\": \"sky/a.png\""), std::string::npos);
+  auto made = std::make_shared<Panorama>();
+  made->name = "made";
+  made->image = {2, 1, {{0, 1e-30f, 0.1f}, {1e9f, 3, 1.0f / 3}}};
+  document.scene.lights[1].panorama = made;
   check(document);
 }
 

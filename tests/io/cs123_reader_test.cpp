@@ -142,9 +142,59 @@ TEST_F(Cs123Reader, Lights) {
   EXPECT_EQ(lights[0].color, vec3(1, 2, 3));
   EXPECT_EQ(lights[1].type, LightType::point);
   EXPECT_EQ(lights[1].position, vec3(1, 2, 3));
+  EXPECT_EQ(lights[1].attenuation, vec3(1, 0, 0));
   ASSERT_EQ(loaded.warnings.size(), 1u);
-  EXPECT_TRUE(
-      test::says(files.warnings(loaded)[0], "1 x s.xml:2:115: a light's function of distance is ignored"));
+  EXPECT_TRUE(test::says(files.warnings(loaded)[0], "1 x s.xml:2:181: a light's function", {"not physical"}));
+}
+
+TEST_F(Cs123Reader, SpotsAndAreaLights) {
+  auto loaded =
+      read("<lightdata><type v='spot'/><position x='1' y='2' z='3'/><direction x='0' y='-1' z='1'/>"
+           "<angle v='30'/><penumbra v='10'/><function a='0' b='0' c='2'/><color r='4' g='5' b='6'/>"
+           "</lightdata><lightdata><id v='1'/><type v='area'/><position x='0' y='4' z='0'/>"
+           "<direction x='0' y='-3' z='0'/><width v='2'/><height v='6'/><color r='7' g='8' b='9'/>"
+           "</lightdata>" +
+           sphere(""));
+  const SceneDesc& scene = loaded.document.scene;
+  EXPECT_EQ(files.warnings(loaded), std::vector<std::string>{});
+  ASSERT_EQ(scene.lights.size(), 1u);
+  const LightDesc& spot = scene.lights[0];
+  EXPECT_EQ(spot.type, LightType::spot);
+  EXPECT_EQ(spot.position, vec3(1, 2, 3));
+  EXPECT_EQ(spot.direction, vec3(0, -1, 1));
+  EXPECT_NEAR(degrees(spot.cutoff_angle), 30, 1e-5f);
+  EXPECT_NEAR(degrees(spot.beam_width), 20, 1e-5f);
+  EXPECT_EQ(spot.attenuation, vec3(0, 0, 2));
+  EXPECT_EQ(spot.color, vec3(4, 5, 6));
+  ASSERT_EQ(scene.instances.size(), 2u);
+  const Instance& area = scene.instances[0];
+  EXPECT_EQ(area.name, "light 1");
+  EXPECT_TRUE(std::holds_alternative<RectangleShape>(area.shape));
+  EXPECT_EQ(transform_point(area.world_from_object, {1, 1, 0}), vec3(1, 4, 3));
+  EXPECT_EQ(transform_vector(area.world_from_object, {0, 0, 1}), vec3(0, -1, 0)) << "it faces down";
+  const Material& shine = scene.materials[static_cast<std::size_t>(area.materials[0])];
+  EXPECT_EQ(shine.emission, vec3(7, 8, 9));
+  EXPECT_FALSE(shine.two_sided_emission);
+}
+
+TEST_F(Cs123Reader, PrimitivesFillTheUnitCube) {
+  for (const char* kind : {"cube", "cylinder", "cone", "sphere", "torus"}) {
+    SCOPED_TRACE(kind);
+    auto loaded = read(root(std::string("<translate x='5' y='0' z='0'/><object type='primitive' name='") +
+                            kind + "'><diffuse r='1' g='0' b='0'/></object>"));
+    const SceneDesc& scene = loaded.document.scene;
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(shape_name(scene.instances[0].shape), kind);
+    EXPECT_EQ(scene.materials[static_cast<std::size_t>(scene.instances[0].materials[0])].diffuse,
+              vec3(1, 0, 0));
+    Bounds3 box = scene_bounds(scene);
+    float height = std::string(kind) == "torus" ? 0.125f : 0.5f;
+    EXPECT_LT(glm::length(box.lo - vec3(4.5f, -height, -0.5f)), 1e-6f);
+    EXPECT_LT(glm::length(box.hi - vec3(5.5f, height, 0.5f)), 1e-6f);
+  }
+  auto cone = read(root("<object type='primitive' name='cone'/>"));
+  vec3 apex = transform_point(cone.document.scene.instances[0].world_from_object, {0, 0, 1});
+  EXPECT_LT(glm::length(apex - vec3(0, 0.5f, 0)), 1e-6f) << "upright";
 }
 
 TEST_F(Cs123Reader, MasterObjects) {
@@ -205,9 +255,18 @@ const XmlError kErrors[] = {
     {"UpAlongView", "<cameradata><look x='0' y='3' z='0'/></cameradata>",
      "s.xml:2:1: cameradata: ", "parallel"},
     {"Coefficient", "<globaldata><kd v='-1'/></globaldata>", "s.xml:2:13: kd: ", "negative"},
-    {"SpotLight", "<lightdata><type v='spot'/></lightdata>",
-     "s.xml:2:18: lightdata: ", "spot lights are not supported yet"},
-    {"AreaLight", "<lightdata><type v='area'/></lightdata>", "s.xml:2:18: lightdata: ", "not supported yet"},
+    {"SpotAngle", "<lightdata><type v='spot'/><angle v='200'/></lightdata>",
+     "s.xml:2:28: angle: ", "from 0.01 to 180"},
+    {"Penumbra", "<lightdata><type v='spot'/><penumbra v='-1'/></lightdata>",
+     "s.xml:2:28: penumbra: ", "out of range"},
+    {"SpotDirection", "<lightdata><type v='spot'/><direction x='0' y='0' z='0'/></lightdata>",
+     "s.xml:2:1: lightdata: ", "no length"},
+    {"AreaWidth", "<lightdata><type v='area'/><width v='0'/></lightdata>",
+     "s.xml:2:28: width: ", "no length"},
+    {"FunctionZero", "<lightdata><function a='0' b='0' c='0'/></lightdata>",
+     "s.xml:2:12: function: ", "infinite"},
+    {"FunctionNegative", "<lightdata><function a='0' b='-1' c='1'/></lightdata>",
+     "s.xml:2:12: function: ", "negative"},
     {"LightType", "<lightdata><type v='sun'/></lightdata>", "s.xml:2:18: lightdata: ", "no light type 'sun'"},
     {"LightColor", "<lightdata><color r='1' g='-1' b='1'/></lightdata>", "s.xml:2:12: color: ", "negative"},
     {"LightDirection", "<lightdata><type v='directional'/><direction x='0' y='0' z='0'/></lightdata>",
@@ -216,10 +275,8 @@ const XmlError kErrors[] = {
     {"SecondTree", "<object type='tree' name='a'/><object type='tree' name='a'/>",
      "s.xml:2:31: object: ", "second tree 'a'"},
     {"ObjectType", CANDELA_ROOT("<object type='group'/>"), "s.xml:2:53: object: ", "no object type 'group'"},
-    {"Cube", CANDELA_ROOT("<object type='primitive' name='cube'/>"),
-     "s.xml:2:70: object: ", "cubes are not supported yet"},
-    {"Primitive", CANDELA_ROOT("<object type='primitive' name='torus'/>"),
-     "s.xml:2:70: object: ", "no primitive 'torus'"},
+    {"Primitive", CANDELA_ROOT("<object type='primitive' name='teapot'/>"),
+     "s.xml:2:70: object: ", "no primitive 'teapot'"},
     {"MeshNoFile", CANDELA_ROOT("<object type='primitive' name='mesh'/>"),
      "s.xml:2:45: object: ", "without a file"},
     {"MeshMissing", CANDELA_ROOT("<object type='primitive' name='mesh' filename='x.obj'/>"),

@@ -171,6 +171,57 @@ TEST(Light, DeltaLights) {
   EXPECT_EQ(s->radiance, vec3(8, 4, 2));
 }
 
+TEST(Light, SpotFallsOffBetweenBeamAndCutoff) {
+  SpotLight spot{{0, 4, 0}, {0, -1, 0}, radians(20.0f), radians(40.0f), {8, 4, 2}};
+  auto irradiance = [&](float angle) { // on a plane that faces the light, at the distance 4 / cos
+    LightReference ref{{4 * std::tan(radians(angle)), 0, 0}, {0, 1, 0}};
+    auto s = spot.sample(ref, {});
+    if (s) {
+      EXPECT_TRUE(s->delta && !s->infinite && s->pdf == 1);
+      EXPECT_NEAR(s->direction.y, std::cos(radians(angle)), 1e-6f);
+    }
+    return s ? s->radiance.x * sqr(4 / std::cos(radians(angle))) : 0.0f;
+  };
+  EXPECT_EQ(irradiance(0), 8);
+  EXPECT_NEAR(irradiance(19.9f), 8, 1e-4f);
+  EXPECT_NEAR(irradiance(25), 6, 1e-4f);
+  EXPECT_NEAR(irradiance(-35), 2, 1e-4f);
+  EXPECT_EQ(irradiance(40.1f), 0);
+  EXPECT_FALSE((spot.sample({{0, 5, 0}, {0, -1, 0}}, {}))) << "behind it";
+  spot.beam_width = spot.cutoff_angle;
+  EXPECT_NEAR(irradiance(39.9f), 8, 1e-4f) << "a hard edge";
+  EXPECT_EQ(irradiance(40.1f), 0);
+}
+
+TEST(Light, AttenuationReplacesTheInverseSquare) {
+  LightReference ref{{0, 0, 0}, {0, 1, 0}};
+  auto at = [&](vec3 attenuation) {
+    auto s = PointLight{{0, 3, 0}, vec3(18), attenuation}.sample(ref, {});
+    auto t = SpotLight{{0, 3, 0}, {0, -1, 0}, 1, 1, vec3(18), attenuation}.sample(ref, {});
+    EXPECT_EQ(s->radiance, t->radiance);
+    return s->radiance.x;
+  };
+  EXPECT_EQ(at({0, 0, 1}), 2);
+  EXPECT_EQ(at({1, 0, 0}), 18);
+  EXPECT_EQ(at({0, 2, 0}), 3);
+  EXPECT_EQ(at({3, 2, 1}), 1);
+}
+
+TEST(Light, PowerOfASpotIsItsIntegralOverTheSphere) {
+  for (auto [beam, cutoff] : {std::pair(0.2f, 0.6f), {0.0f, 3.0f}, {1.0f, 1.0f}}) {
+    SpotLight spot{vec3(0), {0, 0, 1}, beam, cutoff, vec3(1)};
+    double sum = 0;
+    for (int i = 0; i < 100000; ++i) {
+      double theta = (i + 0.5) * std::numbers::pi / 100000;
+      sum += static_cast<double>(spot.falloff(static_cast<float>(theta))) * std::sin(theta);
+    }
+    sum *= 2 * std::numbers::pi * std::numbers::pi / 100000;
+    EXPECT_NEAR(light_power(spot, 1), sum, 1e-3 * sum);
+    spot.attenuation = {1, 0, 0};
+    EXPECT_NEAR(light_power(spot, 3), 9 * sum, 9e-3 * sum) << "as strong there as at the distance 1";
+  }
+}
+
 TEST(Light, PowerIsWhatItSendsOut) {
   // Phi = pi A L for a Lambertian side, 4 pi I for a point; relative to one of luminance 1.
   vec3 one(1);

@@ -98,6 +98,45 @@ inline Document sky_sun_and_lamp_scene() {
   return s.document;
 }
 
+/// A panorama with a sun of some 30 degrees, and a spot, over a floor with a can and a ring on it.
+inline Document environment_scene() {
+  SceneMaker s(8, 8, 1);
+  auto panorama = std::make_shared<Panorama>();
+  panorama->image = {32, 16, {}};
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 32; ++x) {
+      bool sun = x >= 11 && x < 14 && y >= 3 && y < 6;
+      panorama->image.pixels.push_back(sun         ? vec3(20, 16, 10)
+                                       : y >= 8    ? vec3(0)
+                                       : x % 8 < 2 ? vec3(0.8f, 0.5f, 0.3f)
+                                                   : vec3(0.3f, 0.5f, 1));
+    }
+  LightDesc sky;
+  sky.type = LightType::environment;
+  sky.panorama = panorama;
+  sky.rotation = 1;
+  s.document.scene.lights.push_back(sky);
+  LightDesc spot;
+  spot.type = LightType::spot;
+  spot.position = {1.5f, 2, 1};
+  spot.direction = {-1, -1.5f, -0.5f};
+  spot.cutoff_angle = 0.7f;
+  spot.beam_width = 0.3f;
+  spot.color = {6, 9, 3};
+  s.document.scene.lights.push_back(spot);
+  mat4 upright = glm::rotate(mat4(1), -0.5f * kPi, vec3(1, 0, 0)); // z becomes y
+  auto add = [&](const Shape& shape, vec3 at, Material m) {
+    s.document.scene.instances.push_back({"", shape, glm::translate(mat4(1), at) * upright, {s.material(m)}});
+  };
+  add(PlaneShape{}, {0, 0, 0}, strategy_material(MaterialType::diffuse, {0.7f, 0.5f, 0.6f}, vec3(0)));
+  add(CylinderShape{0.5f, 1.2f, true}, {-0.7f, 0, 0},
+      strategy_material(MaterialType::ggx, vec3(0), {0.9f, 0.7f, 0.5f}));
+  Material green = strategy_material(MaterialType::diffuse, {0.2f, 0.6f, 0.4f}, vec3(0));
+  add(TorusShape{0.5f, 0.2f}, {0.8f, 0.2f, 0.3f}, green);
+  s.camera({0, 2.5f, 4}, {0, 0.4f, 0}, 40);
+  return s.document;
+}
+
 inline std::vector<NamedScene> strategy_scenes() {
   using enum MaterialType;
   Document cornell = cornell_flush(8, 8, 1, true).document;
@@ -106,7 +145,8 @@ inline std::vector<NamedScene> strategy_scenes() {
           {"ggx plates", plates_scene(strategy_material(ggx, vec3(0), {0.8f, 0.7f, 0.9f}))},
           {"mirror and glass", mirror_and_glass_scene()},
           {"instances, texture, screen", instances_scene()},
-          {"sky, sun and lamp", sky_sun_and_lamp_scene()}};
+          {"sky, sun and lamp", sky_sun_and_lamp_scene()},
+          {"environment and spot", environment_scene()}};
 }
 
 } // namespace candela::test

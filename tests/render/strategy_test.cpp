@@ -94,6 +94,7 @@ TEST(StrategyStatistical, GgxPlates) { expect_one_expectation(strategy_scenes()[
 TEST(StrategyStatistical, MirrorAndGlass) { expect_one_expectation(strategy_scenes()[3], 512); }
 TEST(StrategyStatistical, InstancesTextureAndScreen) { expect_one_expectation(strategy_scenes()[4], 512); }
 TEST(StrategyStatistical, SkySunAndLamp) { expect_one_expectation(strategy_scenes()[5], 512); }
+TEST(StrategyStatistical, EnvironmentAndSpot) { expect_one_expectation(strategy_scenes()[6], 512); }
 
 /// Everything with everything.
 void expect_all_combinations_agree(const NamedScene& scene) {
@@ -121,6 +122,7 @@ TEST(StrategyHeavy, GgxPlates) { expect_all_combinations_agree(strategy_scenes()
 TEST(StrategyHeavy, MirrorAndGlass) { expect_all_combinations_agree(strategy_scenes()[3]); }
 TEST(StrategyHeavy, InstancesTextureAndScreen) { expect_all_combinations_agree(strategy_scenes()[4]); }
 TEST(StrategyHeavy, SkySunAndLamp) { expect_all_combinations_agree(strategy_scenes()[5]); }
+TEST(StrategyHeavy, EnvironmentAndSpot) { expect_all_combinations_agree(strategy_scenes()[6]); }
 
 TEST(StrategyStatistical, RouletteKeepsTheMeanOfUnlimitedPaths) {
   Document d = mirror_and_glass_scene();

@@ -1,0 +1,98 @@
+#include "io/panorama_reader.h"
+
+#include "io/image_codec.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace candela {
+
+namespace {
+
+constexpr float kLargestRadiance = 1e9f;
+
+void make_radiance(Image& image, const Location& where, WarningList& warnings) {
+  bool changed = false;
+  for (vec3& pixel : image.pixels)
+    for (int c = 0; c < 3; ++c) {
+      float value = pixel[c] > 0 ? std::min(pixel[c], kLargestRadiance) : 0.0f; // NaN: 0
+      changed |= !(value == pixel[c]);
+      pixel[c] = value;
+    }
+  if (changed) warnings.add(where, "values below 0, above 1e9 or not numbers are taken for 0 or 1e9");
+}
+
+} // namespace
+
+std::shared_ptr<const Panorama> read_panorama(std::span<const std::string> paths, WarningList& warnings) {
+  auto panorama = std::make_shared<Panorama>();
+  Image& all = panorama->image;
+  for (const std::string& path : paths) {
+    Image image = read_image(path);
+    make_radiance(image, {path}, warnings);
+    if (panorama->sources.empty()) {
+      panorama->name = std::filesystem::path(path).filename().string();
+      check_image_size({path}, image.width, std::int64_t{image.height} * std::ssize(paths));
+      all.width = image.width;
+    } else if (image.width != all.width ||
+               image.height * static_cast<int>(panorama->sources.size()) != all.height) {
+      throw input_error({path}, "panorama",
+                        fmt::format("{} x {} pixels, where the first face has {} x {}", image.width,
+                                    image.height, all.width,
+                                    all.height / static_cast<int>(panorama->sources.size())),
+                        "give six faces of one size");
+    }
+    all.height += image.height;
+    if (paths.size() == 1)
+      all.pixels = std::move(image.pixels);
+    else
+      all.pixels.insert(all.pixels.end(), image.pixels.begin(), image.pixels.end());
+    panorama->sources.push_back(path);
+  }
+  return panorama;
+}
+
+std::string mapping_problem(EnvironmentMapping mapping, int width, int height) {
+  std::int64_t w = width, h = height;
+  switch (mapping) {
+  case EnvironmentMapping::latlong: return {};
+  case EnvironmentMapping::angular:
+    return w == h ? "" : fmt::format("an angular map is square, not {} x {}: it is stretched", w, h);
+  case EnvironmentMapping::cross:
+    return 3 * w == 4 * h || 4 * w == 3 * h
+               ? ""
+               : fmt::format("a cross has the proportions 4 : 3 or 3 : 4, not {} x {}: it is stretched", w,
+                             h);
+  case EnvironmentMapping::faces:
+    return 6 * w == h ? ""
+                      : fmt::format("a cube's faces are square, not {} x {}: they are stretched", w, h / 6.0);
+  }
+  return {};
+}
+
+EnvironmentMapping likely_mapping(const Image& image) {
+  using enum EnvironmentMapping;
+  for (EnvironmentMapping mapping : {angular, cross, faces})
+    if (mapping_problem(mapping, image.width, image.height).empty()) return mapping;
+  return latlong;
+}
+
+std::size_t set_environment(SceneDesc& scene, std::shared_ptr<const Panorama> panorama) {
+  auto& lights = scene.lights;
+  auto light = std::ranges::find(lights, LightType::environment, &LightDesc::type);
+  if (light == lights.end()) light = std::ranges::find(lights, LightType::constant, &LightDesc::type);
+  if (light == lights.end()) {
+    LightDesc fresh;
+    fresh.name = "environment";
+    light = lights.insert(lights.end(), fresh);
+  }
+  if (light->type != LightType::environment) light->color = vec3(1), light->scale = 1;
+  light->type = LightType::environment;
+  light->mapping = likely_mapping(panorama->image);
+  light->panorama = std::move(panorama);
+  return static_cast<std::size_t>(light - lights.begin());
+}
+
+} // namespace candela
