@@ -1,6 +1,7 @@
 #include "app/cli.h"
 
 #include "app/compare_command.h"
+#include "app/convert_command.h"
 #include "app/gallery_command.h"
 #include "app/info_command.h"
 #include "app/lab_command.h"
@@ -98,6 +99,13 @@ int run(int argc, char** argv) {
   gallery->add_flag("--list", gallery_options.list, "Only say which figures there are");
   gallery->add_flag("--quiet", gallery_options.quiet, "Say nothing but warnings and errors");
 
+  SceneOptions convert_options;
+  std::string converted;
+  auto* convert = app.add_subcommand("convert", "Write any scene as Candela JSON");
+  add_common_options(*convert, convert_options);
+  convert->get_option("scene")->required();
+  convert->add_option("output", converted, "File to write, .json")->required();
+
   bool json = false, markdown = false;
   auto* settings = app.add_subcommand("settings", "List every setting");
   settings->add_flag("--json", json, "As JSON");
@@ -117,6 +125,7 @@ int run(int argc, char** argv) {
   if (compare->parsed()) return run_compare(compare_a, compare_b, diff);
   if (gallery->parsed()) return run_gallery(gallery_options);
   if (info->parsed()) return run_info(info_options);
+  if (convert->parsed()) return run_convert(convert_options, converted);
   if (settings->parsed()) return run_settings(json, markdown);
   if (lab.parsed()) return lab.run();
   return run_view(view_options);

@@ -86,17 +86,6 @@ private:
     return out;
   }
 
-  /// The path of a file relative to the folder; nothing if it lies outside of the folder's tree or is gone.
-  std::optional<std::string> inside_path(const std::string& source) const {
-    if (source.empty()) return std::nullopt;
-    std::error_code failed;
-    fs::path file = fs::weakly_canonical(fs::absolute(source), failed);
-    if (failed || !fs::is_regular_file(file, failed)) return std::nullopt;
-    fs::path relative = file.lexically_relative(folder_);
-    if (relative.empty() || *relative.begin() == "..") return std::nullopt;
-    return relative.generic_string();
-  }
-
   std::string picture_path(const std::string& source) const {
     std::error_code failed;
     fs::path file = fs::weakly_canonical(fs::absolute(source), failed);
@@ -177,7 +166,7 @@ private:
         key = fmt::format("{}-{}", mesh.name.empty() ? "mesh" : mesh.name, i);
       mesh_keys_[&mesh] = key;
       std::string name = key == mesh.name ? "" : fmt::format("\"name\": {}, ", json_quoted(mesh.name));
-      if (auto path = inside_path(mesh.source))
+      if (auto path = path_below(folder_.string(), mesh.source))
         out.push_back(fmt::format("{}: {{{}\"file\": {}}}", json_quoted(key), name, json_quoted(*path)));
       else
         out.push_back(

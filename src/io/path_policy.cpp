@@ -37,6 +37,12 @@ bool is_file(const fs::path& path) {
 
 } // namespace
 
+std::optional<std::string> path_below(const std::string& folder, const std::string& file) {
+  fs::path root = canonical_or_same(folder), found = canonical_or_same(file);
+  if (file.empty() || !is_file(found) || !is_inside(found, root)) return std::nullopt;
+  return found.lexically_relative(root).generic_string();
+}
+
 PathPolicy::PathPolicy(const std::string& root_folder, bool allow_outside)
     : root_(canonical_or_same(root_folder).string()), allow_outside_(allow_outside) {}
 

@@ -20,6 +20,9 @@ struct FoundFile {
 /// The folder part of a path, "." for a bare name.
 std::string folder_of(const std::string& path);
 
+/// The name of a regular file relative to a folder in whose tree it lies, links followed; nothing for others.
+std::optional<std::string> path_below(const std::string& folder, const std::string& file);
+
 class PathPolicy {
 public:
   /// Files may lie in `root_folder` and below it, or anywhere if allow_outside.

@@ -1,0 +1,76 @@
+#include "io/scene_export.h"
+
+#include "io/atomic_file.h"
+#include "io/candela_json.h"
+#include "io/file_bytes.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace candela {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class PictureCopier {
+public:
+  explicit PictureCopier(const std::string& path)
+      : folder_(folder_of(path)), copies_(fs::path(folder_) / (fs::path(path).stem().string() + "_files")) {}
+
+  /// Where the scene will find the picture; empty where the file is gone, so that it is written inline.
+  std::string reachable(const std::string& source) {
+    if (source.empty() || path_below(folder_, source)) return source;
+    if (auto known = done_.find(source); known != done_.end()) return known->second;
+    std::error_code failed;
+    if (!fs::is_regular_file(source, failed)) return "";
+    fs::path name = fs::path(source).filename(), to = copies_ / name;
+    for (int i = 2; !taken_.insert(to).second; ++i)
+      to = copies_ / fmt::format("{}-{}{}", name.stem().string(), i, name.extension().string());
+    fs::create_directories(copies_, failed);
+    if (failed) throw output_error(copies_.string(), failed.message(), "choose another place");
+    write_file_atomically(to.string(), std::span<const std::uint8_t>(read_file_bytes(source, "image")));
+    copied.push_back({source, to.string()});
+    return done_[source] = to.string();
+  }
+
+  std::vector<ExportedFile> copied;
+
+private:
+  std::string folder_;
+  fs::path copies_;
+  std::map<std::string, std::string> done_;
+  std::set<fs::path> taken_;
+};
+
+} // namespace
+
+std::vector<ExportedFile> export_candela_json(Document document, const std::string& path) {
+  if (auto problem = document_problem(document); !problem.empty()) // before anything is copied
+    throw output_error("scene", problem, "correct it before writing");
+  PictureCopier copier(path);
+  for (auto& texture : document.scene.textures) {
+    std::string source = copier.reachable(texture->source);
+    if (source == texture->source) continue;
+    auto moved = std::make_shared<Texture>(*texture);
+    moved->source = source;
+    texture = std::move(moved);
+  }
+  for (LightDesc& light : document.scene.lights) {
+    if (!light.panorama) continue;
+    std::vector<std::string> sources;
+    for (const std::string& source : light.panorama->sources) sources.push_back(copier.reachable(source));
+    if (std::ranges::find(sources, "") != sources.end()) sources.clear();
+    if (sources == light.panorama->sources) continue;
+    auto moved = std::make_shared<Panorama>(*light.panorama);
+    moved->sources = std::move(sources);
+    light.panorama = std::move(moved);
+  }
+  write_candela_json(document, path);
+  return std::move(copier.copied);
+}
+
+} // namespace candela

@@ -1,0 +1,68 @@
+// Converted scenes stand on their own and read back the same.
+
+#include "io/scene_export.h"
+#include "scene_files.h"
+
+namespace candela {
+namespace {
+
+using test::SceneFiles;
+
+TEST(SceneExport, CopiesPicturesFromElsewhereAndWritesMeshesInline) {
+  SceneFiles files;
+  files.write("in/t/a.png", test::tiny_png());
+  files.write("in/u/a.png", test::tiny_png());
+  files.write("in/x.obj", "mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 0 0.1 0\nusemtl a\nf 1 2 3\n");
+  files.write("in/x.mtl", "newmtl a\nKd 0.1 0.2 0.3\nmap_Kd t/a.png\n");
+  files.write("in/s.json", R"({"candela": 1, "materials": [{"name": "u", "diffuse_texture": "u/a.png"}],
+    "lights": [{"type": "environment", "file": "t/a.png"}],
+    "instances": [{"file": "x.obj"}, {"shape": "sphere", "material": "u"}]})");
+  Document document = files.read("in/s.json").document;
+  std::filesystem::create_directory(files / "out");
+  auto copied = export_candela_json(document, files / "out/scene.json");
+  ASSERT_EQ(copied.size(), 2u);
+  EXPECT_EQ(files.without_folder(copied[0].to), "out/scene_files/a.png");
+  EXPECT_EQ(files.without_folder(copied[1].to), "out/scene_files/a-2.png");
+  EXPECT_EQ(test::read_text(copied[0].to), test::tiny_png());
+  std::filesystem::remove_all(files / "in");
+  LoadedScene again = files.read("out/scene.json");
+  EXPECT_EQ(files.warnings(again), std::vector<std::string>{});
+  for (auto* scene : {&document.scene, &again.document.scene}) { // where a picture came from may differ
+    for (auto& texture : scene->textures) {
+      auto nameless = std::make_shared<Texture>(*texture);
+      nameless->name.clear(), nameless->source.clear();
+      texture = nameless;
+    }
+    auto nameless = std::make_shared<Panorama>(*scene->lights[0].panorama);
+    nameless->name.clear(), nameless->sources.clear();
+    scene->lights[0].panorama = nameless;
+  }
+  EXPECT_TRUE(same_content(document, again.document));
+}
+
+TEST(SceneExport, NamesWhatLiesBesideIt) {
+  SceneFiles files;
+  files.write("t/a.png", test::tiny_png());
+  files.write("s.json", R"({"candela": 1, "lights": [{"type": "environment", "file": "t/a.png"}]})");
+  Document document = files.read("s.json").document;
+  EXPECT_TRUE(export_candela_json(document, files / "copy.json").empty());
+  EXPECT_TRUE(same_content(files.read("copy.json").document, document));
+  EXPECT_FALSE(std::filesystem::exists(files / "copy_files"));
+  std::filesystem::remove(files / "t/a.png"); // then the picture is written inline
+  EXPECT_TRUE(export_candela_json(document, files / "inline.json").empty());
+  Document again = files.read("inline.json").document;
+  EXPECT_EQ(again.scene.lights[0].panorama->image, document.scene.lights[0].panorama->image);
+}
+
+TEST(SceneExport, CopiesNothingForAnInvalidDocument) {
+  SceneFiles files;
+  files.write("in/a.png", test::tiny_png());
+  files.write("in/s.json", R"({"candela": 1, "lights": [{"type": "environment", "file": "a.png"}]})");
+  Document document = files.read("in/s.json").document;
+  document.settings.film.width = 0;
+  EXPECT_THROW(export_candela_json(document, files / "out.json"), Error);
+  EXPECT_FALSE(std::filesystem::exists(files / "out_files"));
+}
+
+} // namespace
+} // namespace candela
