@@ -29,6 +29,18 @@ void light_fields_of(Ui& ui, ViewerState& state, std::size_t index) {
   }
 }
 
+void panorama_of(Ui& ui, ViewerState& state, const LightDesc& light) {
+  ui.readout("panorama", light.panorama ? light.panorama->name : "none: the same from everywhere",
+             "The picture that the light comes from");
+  const float button = 64 * ui.scale();
+  const bool entered = ui.text("light.file", "Path of a panorama, or drop it here", state.panorama_input,
+                               -button - ImGui::GetStyle().ItemSpacing.x);
+  ImGui::SameLine();
+  const bool pressed =
+      ui.button("light.open", "Open", "Lights the scene with this picture (.exr, .hdr …)", button);
+  if ((entered || pressed) && !state.panorama_input.empty()) state.open_path = state.panorama_input;
+}
+
 void emission_fields_of(Ui& ui, ViewerState& state, std::size_t index) {
   Material& material = state.document.scene.materials[index];
   for (const auto& row : material_fields()) {
@@ -97,10 +109,12 @@ void lights_panel(Ui& ui, ViewerState& state) {
   });
   const auto selected = static_cast<std::size_t>(state.selected_light);
   ImGui::PushID(state.selected_light);
-  if (selected < lights.size())
+  if (selected < lights.size()) {
     light_fields_of(ui, state, selected);
-  else
+    if (lights[selected].type == LightType::environment) panorama_of(ui, state, lights[selected]);
+  } else {
     emission_fields_of(ui, state, shining[selected - lights.size()]);
+  }
   ImGui::PopID();
 }
 

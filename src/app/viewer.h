@@ -126,7 +126,9 @@ private:
   std::optional<int> light_at(vec2 mouse) const;
 
   // viewer_files.cpp
+  /// Reads a scene in the background, or a picture that lights the present one.
   void open_scene(const std::string& path);
+  void light_with(std::shared_ptr<const Panorama> panorama);
   void install_scene(Document document, std::string path, std::vector<std::string> warnings,
                      const Bounds3& bounds);
   void save_shown_picture();

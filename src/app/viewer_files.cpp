@@ -3,19 +3,50 @@
 #include "app/picture_saver.h"
 #include "app/viewer.h"
 #include "core/error.h"
+#include "io/image_file.h"
+#include "io/panorama_reader.h"
 #include "io/scene_builder.h"
 
 #include <fmt/format.h>
 
 namespace candela {
 
+namespace {
+
+/// The picture at the path, unless it is none or holds a scene.
+std::shared_ptr<const Panorama> panorama_without_scene(const std::string& path, const ReadOptions& reading) {
+  if (!is_image_name(path)) return nullptr;
+  try {
+    read_scene(path, reading);
+    return nullptr;
+  } catch (const Error&) {
+    WarningList corrections; // of values that no light has: nothing that the user could mend
+    return read_panorama(std::span(&path, 1), corrections);
+  }
+}
+
+} // namespace
+
+void Viewer::light_with(std::shared_ptr<const Panorama> panorama) {
+  const auto selected = static_cast<std::size_t>(std::max(state_.selected_light, 0));
+  state_.selected_light =
+      static_cast<int>(set_environment(state_.document.scene, std::move(panorama), selected));
+  state_.edited = true;
+}
+
 void Viewer::open_scene(const std::string& path) {
   state_.loading_path = path;
-  state_.path_input = path;
+  (is_image_name(path) ? state_.panorama_input : state_.path_input) = path;
   const std::uint64_t request = ++open_requests_;
   reader_.post([this, path, request, reading = options_.reading]() -> TaskThread::Completion {
     std::string problem;
     try {
+      if (auto panorama = panorama_without_scene(path, reading))
+        return [this, path, request, panorama] {
+          if (request != open_requests_) return;
+          light_with(panorama);
+          notify(fmt::format("{} lights the scene: see Lights", path));
+        };
       LoadedScene loaded = read_scene(path, reading);
       problem = camera_problem(loaded.document.scene.camera);
       if (problem.empty()) {

@@ -51,6 +51,7 @@ struct ViewerState {
 
   std::vector<std::filesystem::path> scenes; ///< offered in the Scenes panel
   std::string path_input;
+  std::string panorama_input;
   int selected_material = 0;
   int selected_light = 0; ///< lights first, then emissive materials
 
@@ -69,7 +70,7 @@ struct ViewerState {
   InspectState inspect;
 
   // Requests to the Viewer.
-  std::optional<std::string> open_path;
+  std::optional<std::string> open_path; ///< of a scene, or of a picture that is to light this one
   bool save_requested = false;
   bool reset_view_requested = false;
   bool refresh_scenes_requested = false;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace candela {
@@ -54,6 +55,13 @@ ImageFormat image_format_of(std::string_view path) {
                     ending.empty() ? std::string("the name has no ending that tells the format")
                                    : fmt::format("no image format has the ending '{}'", ending),
                     "use .png, .jpg or .ppm (tone-mapped) or .exr, .hdr or .pfm (linear)");
+}
+
+bool is_image_name(std::string_view path) {
+  constexpr std::string_view kOnlyRead[] = {".bmp", ".pgm", ".pnm"};
+  std::string ending = ending_of(path);
+  return std::ranges::find(kEndings, ending, &Ending::text) != kEndings.end() ||
+         std::ranges::find(kOnlyRead, ending) != std::end(kOnlyRead);
 }
 
 Image decode_image(ByteView bytes, const Location& where) {

@@ -18,6 +18,9 @@ enum class ImageFormat { png, jpg, ppm, exr, hdr, pfm };
 /// known endings for any other.
 ImageFormat image_format_of(std::string_view path);
 
+/// Whether the ending, in either case, is that of a picture that read_image might read.
+bool is_image_name(std::string_view path);
+
 /// Whether the format holds linear radiance rather than a tone-mapped picture.
 constexpr bool is_linear_format(ImageFormat format) { return format >= ImageFormat::exr; }
 

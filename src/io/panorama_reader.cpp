@@ -79,9 +79,12 @@ EnvironmentMapping likely_mapping(const Image& image) {
   return latlong;
 }
 
-std::size_t set_environment(SceneDesc& scene, std::shared_ptr<const Panorama> panorama) {
+std::size_t set_environment(SceneDesc& scene, std::shared_ptr<const Panorama> panorama,
+                            std::size_t preferred) {
   auto& lights = scene.lights;
   auto light = std::ranges::find(lights, LightType::environment, &LightDesc::type);
+  if (preferred < lights.size() && lights[preferred].type == LightType::environment)
+    light = lights.begin() + static_cast<std::ptrdiff_t>(preferred);
   if (light == lights.end()) light = std::ranges::find(lights, LightType::constant, &LightDesc::type);
   if (light == lights.end()) {
     LightDesc fresh;

@@ -21,8 +21,10 @@ std::string mapping_problem(EnvironmentMapping mapping, int width, int height);
 /// The mapping whose proportions a picture has; latlong if it has none's.
 EnvironmentMapping likely_mapping(const Image& image);
 
-/// Lights the scene with a panorama: in the place of the first environment, or else of the first constant
-/// light, or else as a light of its own. Returns the light's index.
-std::size_t set_environment(SceneDesc& scene, std::shared_ptr<const Panorama> panorama);
+/// Lights the scene with a panorama, by the mapping that it likely has: in the light `preferred` if that is
+/// an environment, else in the first that is, else in the place of the first constant light, else by a light
+/// of its own. Returns the light's index.
+std::size_t set_environment(SceneDesc& scene, std::shared_ptr<const Panorama> panorama,
+                            std::size_t preferred = 0);
 
 } // namespace candela

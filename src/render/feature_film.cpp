@@ -23,7 +23,7 @@ class FeatureTracer {
 public:
   FeatureTracer(const RenderScene& scene, const PathSettings& path)
       : scene_(scene), direction_sampling_(path.direction_sampling) {
-    Bounds3 bounds = scene.geometry().bounds();
+    Bounds3 bounds = scene.geometry().finite_bounds();
     if (bounds.empty()) return;
     center_ = bounds.center();
     extent_ = std::max(glm::length(bounds.diagonal()), std::numeric_limits<float>::min());

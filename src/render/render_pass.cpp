@@ -246,7 +246,7 @@ vec3 replay_sample(const RenderScene& scene, const Document& document, uvec2 pix
 
 float display_scale(const RenderScene& scene, const RenderSettings& settings) {
   if (settings.view != View::depth) return 1;
-  Bounds3 bounds = scene.geometry().bounds();
+  Bounds3 bounds = scene.geometry().finite_bounds();
   float diagonal = bounds.empty() ? 0 : glm::length(bounds.diagonal());
   return diagonal > 0 ? 1 / diagonal : 1;
 }

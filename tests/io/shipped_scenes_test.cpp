@@ -24,7 +24,7 @@ TEST(ShippedScenes, AreReadWithoutWarningsAndRoundTrip) {
     EXPECT_NE(test::read_text(entry.path().string()).find("\"description\": \""), std::string::npos);
     SceneFiles files;
     write_candela_json(loaded.document, files / "copy.json");
-    EXPECT_TRUE(same_content(files.read("copy.json").document, loaded.document));
+    EXPECT_TRUE(same_content(files.read("copy.json", {true}).document, loaded.document));
   }
   EXPECT_GE(count, 6);
 }
