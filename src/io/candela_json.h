@@ -30,6 +30,10 @@
 // rows of material_fields() and light_fields(). Angles are degrees; a colour may be one number, a grey. All
 // but "candela" may be left out and has its default then.
 //
+// An environment light has a panorama: "file", or "files" (six faces of a cube: +x, -x, +y, -y, +z, -z), or
+// inline "image": {"name", "width", "height", "pixels": [3 width height numbers]}; without one it is the same
+// from everywhere. For its "mapping" see render/environment_map.h.
+//
 // Files are named relative to the scene's folder. A material's "diffuse_texture" is a picture file, or the
 // index of an entry of "textures": a list of {"file": …} or {"name", "width", "height", "srgb": [bytes]}.
 //
@@ -38,8 +42,10 @@
 // of "" if left out), "source" (the file it once came from, never opened). "name" is the mesh's name if it is
 // not its key.
 //
-// "shape" is mesh, sphere (with "radius", 1 if left out, about the origin), rectangle ([-1, 1]^2 in the xy
-// plane) or disc (of radius 1 in the xy plane); the latter two face +z. It may be left out beside "mesh" and
+// "shape" is one of shape_names() in scene/scene_desc.h, with the values of shape_fields(): sphere (with
+// "radius", about the origin), rectangle ([-1, 1]^2 in the xy plane), disc (of radius 1 there), plane (all of
+// it; these face +z), cube ([-1, 1]^3), cylinder and cone ("radius", "height", "caps"; along z from 0), torus
+// ("radius", "minor_radius"; about z). It may be left out beside "mesh" and
 // "file". "material" names a material (or is its index) for all slots of a mesh, "materials" one for each
 // slot by the slot's name, or a list in the order of the slots. Slots of an OBJ file left without one get
 // that of its MTL, imported as "mesh/slot"; all others a grey.

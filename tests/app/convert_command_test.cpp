@@ -41,7 +41,8 @@ void expect_same_picture(const std::string& path, bool outside = false) {
 
 TEST(ConvertRender, ShippedScenes) {
   for (const auto& entry : fs::directory_iterator(CANDELA_TEST_SOURCE_DIR "/scenes"))
-    if (entry.path().extension() == ".json") expect_same_picture(entry.path().string());
+    if (entry.path().extension() == ".json" && entry.path().stem() != "gallery") // that is a list of figures
+      expect_same_picture(entry.path().string());
 }
 
 TEST(ConvertRender, Cs123ScenesJobsAndMeshes) {
