@@ -42,16 +42,18 @@ struct RenderSession::State {
     {
       std::lock_guard lock(mutex);
       quit = true;
-      stop = true;
+      quitting = stop = true;
     }
     changed.notify_all();
+    if (options.turns) options.turns->wake();
   }
 
   SessionOptions options;
   mutable std::mutex mutex;
   mutable std::condition_variable changed;
   bool quit = false;
-  std::atomic<bool> stop{false}; ///< the pass in flight is out of date
+  std::atomic<bool> stop{false};     ///< the pass in flight is out of date
+  std::atomic<bool> quitting{false}; ///< `quit`, for who does not hold the mutex
 
   // The mailbox.
   std::optional<Document> pending;
@@ -109,6 +111,7 @@ struct RenderSession::State {
   bool goes_on() const;
   bool take_step();
   void step();
+  void render_portion(int most_samples);
   void publish(bool force);
   void feed_denoiser(bool settled);
   void show_denoised(std::shared_ptr<const DenoisedImage> made);
@@ -125,7 +128,9 @@ void RenderSession::State::render_loop() {
   while (true) {
     {
       std::unique_lock lock(mutex);
-      changed.wait(lock, [&] { return quit || pending || region_changed || (active && may_go_on()); });
+      auto has_work = [&] { return quit || pending || region_changed || (active && may_go_on()); };
+      if (options.turns && (quit || !has_work())) options.turns->leave(options.side); // nobody waits for it
+      changed.wait(lock, has_work);
       if (quit) return;
     }
     const SessionPhase before = status.phase;
@@ -232,7 +237,8 @@ void RenderSession::State::restart() {
     wanted = quality;
   }
   const bool too_coarse = built == BuildQuality::fast && wanted == BuildQuality::high;
-  auto made = RenderScene::build(current, too_coarse ? nullptr : scene.get(), wanted);
+  const RenderScene* previous = scene ? scene.get() : options.geometry_of.get();
+  auto made = RenderScene::build(current, too_coarse ? nullptr : previous, wanted);
   if (scene == nullptr || &made->geometry() != &scene->geometry()) built = wanted;
   {
     std::lock_guard lock(mutex);
@@ -263,7 +269,33 @@ bool RenderSession::State::finished() const {
          (until.time > 0 && render_seconds >= static_cast<double>(until.time));
 }
 
+/// Renders a portion, when it is this session's turn.
 void RenderSession::State::step() {
+  std::shared_ptr<RenderTurns> turns;
+  int side = 0;
+  {
+    std::lock_guard lock(mutex);
+    turns = options.turns;
+    side = options.side;
+  }
+  if (!turns) {
+    render_portion(0);
+    return;
+  }
+  const double samples = spp > 0 ? spp : static_cast<double>(level) / std::size(kCoarseLevels);
+  // Like the pass itself, the turn of the coarsest image is never given up for a newer edit.
+  const auto turn = turns->begin(side, {samples, render_seconds}, level == 0 ? quitting : stop);
+  if (!turn.granted) return;
+  struct End { // also when memory runs out
+    RenderTurns& turns;
+    int side;
+    ~End() { turns.end(side); }
+  } end{*turns, side};
+  render_portion(turn.most_samples);
+}
+
+/// `most_samples` a pixel; 0: as many as are worth it.
+void RenderSession::State::render_portion(int most_samples) {
   static const std::atomic<bool> kNeverStop{false};
   PassOptions pass_options;
   pass_options.threads = options.threads;
@@ -280,6 +312,7 @@ void RenderSession::State::step() {
     int portion = 1;
     if (!take_step() && seconds_per_sample > 0)
       portion = static_cast<int>(std::clamp(0.02 / (seconds_per_sample * pixels), 1.0, 64.0));
+    if (most_samples > 0) portion = std::min(portion, most_samples);
     if (current.settings.stop.spp > 0) portion = std::min(portion, current.settings.stop.spp - spp);
     if (current.settings.stop.noise > 0) portion = std::min(portion, next_noise_check(spp) - spp);
     job = schedule.next(static_cast<std::uint32_t>(portion));
@@ -432,8 +465,10 @@ std::uint64_t RenderSession::submit(Document document, BuildQuality quality) {
   State& s = *state_;
   std::uint64_t generation;
   std::unique_ptr<DenoiseJob> dropped;
+  std::shared_ptr<RenderTurns> turns;
   {
     std::lock_guard lock(s.mutex);
+    turns = s.options.turns;
     Invalidates consequence =
         s.status.submitted == 0 ? Invalidates::scene : compare_documents(s.newest, document);
     if (s.quality == BuildQuality::fast && quality == BuildQuality::high) consequence = Invalidates::scene;
@@ -449,6 +484,7 @@ std::uint64_t RenderSession::submit(Document document, BuildQuality quality) {
     generation = ++s.status.submitted;
   }
   s.changed.notify_all();
+  if (turns) turns->wake();
   return generation;
 }
 
@@ -480,6 +516,21 @@ void RenderSession::set_region(const CropWindow& region) {
     s.region_changed = true;
   }
   s.changed.notify_all();
+}
+
+void RenderSession::take_turns(std::shared_ptr<RenderTurns> turns, int side) {
+  {
+    std::lock_guard lock(state_->mutex);
+    if (state_->options.turns) state_->options.turns->leave(state_->options.side);
+    state_->options.turns = std::move(turns);
+    state_->options.side = side;
+  }
+  state_->changed.notify_all();
+}
+
+std::shared_ptr<const RenderScene> RenderSession::scene() const {
+  std::lock_guard lock(state_->mutex);
+  return state_->scene;
 }
 
 std::shared_ptr<const Frame> RenderSession::latest() const {

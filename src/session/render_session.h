@@ -8,6 +8,7 @@
 #include "render/render_pass.h"
 #include "render/render_scene.h"
 #include "session/denoise_thread.h"
+#include "session/render_turns.h"
 
 #include <functional>
 #include <memory>
@@ -51,6 +52,9 @@ struct SessionOptions {
   int threads = 0;                  ///< 0: every core
   std::function<void()> on_publish; ///< called from a session thread when there is something new to show
   double min_publish_interval = 1 / 30.0; ///< seconds between pictures once the first full one is shown
+  std::shared_ptr<RenderTurns> turns;     ///< taken with other sessions; null: alone on the machine
+  int side = 0;                           ///< which one this is
+  std::shared_ptr<const RenderScene> geometry_of; ///< reused where the instances are the same
 };
 
 class RenderSession {
@@ -73,6 +77,12 @@ public:
   /// Only these pixels of the film accumulate, without a restart; the rest keeps what it has and catches up
   /// when an empty window gives the whole film back. After a restart the first pass is everywhere.
   void set_region(const CropWindow& region);
+
+  /// Takes turns from now on; null: no longer.
+  void take_turns(std::shared_ptr<RenderTurns> turns, int side);
+
+  /// Newest that was built; null before.
+  std::shared_ptr<const RenderScene> scene() const;
 
   std::shared_ptr<const Frame> latest() const;         ///< null before the first image
   std::shared_ptr<const DisplayImage> display() const; ///< null before the first image
