@@ -20,28 +20,6 @@ float distance_to_segment(vec2 p, vec2 a, vec2 b) {
   return glm::length(p - a - t * along);
 }
 
-/// The strokes of a dashed line.
-std::vector<std::pair<vec2, vec2>> segments_of(std::span<const vec2> points, float dash) {
-  std::vector<std::pair<vec2, vec2>> out;
-  float walked = 0;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const vec2 a = points[i], b = points[i + 1];
-    const float length = glm::length(b - a);
-    if (dash <= 0) {
-      out.emplace_back(a, b);
-      continue;
-    }
-    for (float at = 0; at < length;) {
-      const float phase = std::fmod(walked + at, 2 * dash);
-      const float step = std::min((phase < dash ? dash : 2 * dash) - phase + 1e-3f, length - at);
-      if (phase < dash) out.emplace_back(glm::mix(a, b, at / length), glm::mix(a, b, (at + step) / length));
-      at += step;
-    }
-    walked += length;
-  }
-  return out;
-}
-
 } // namespace
 
 Canvas::Canvas(int width, int height, Rgb8 ground) {
@@ -107,7 +85,7 @@ void Canvas::draw(const RgbPicture& from, const Box& part, const Box& where) {
 }
 
 void Canvas::line(std::span<const vec2> points, float width, Rgb8 color, bool dashed) {
-  const auto segments = segments_of(points, dashed ? 4 * std::max(width, 1.0f) : 0);
+  const auto segments = strokes_of(points, dashed ? 4 * std::max(width, 1.0f) : 0);
   if (segments.empty()) return;
   const float reach = 0.5f * width + 1;
   vec2 lo(1e9f), hi(-1e9f);

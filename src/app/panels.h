@@ -1,6 +1,7 @@
 #pragma once
 // The panels: each draws itself with Ui into the current ImGui window and edits the state's Document.
 
+#include "app/compare_layout.h"
 #include "app/viewer_state.h"
 #include "app/widgets.h"
 
@@ -18,6 +19,11 @@ void lights_panel(Ui& ui, ViewerState& state);
 void inspect_panel(Ui& ui, ViewerState& state);
 void bookmarks_panel(Ui& ui, ViewerState& state);
 void scenes_panel(Ui& ui, ViewerState& state);
+void compare_panel(Ui& ui, ViewerState& state);
+
+/// What is written over the pictures of a comparison: what they are, the divider, the legend of a difference.
+void compare_overlay(Ui& ui, const CompareState& compare, const ComparePanes& panes,
+                     bool difference_is_there);
 
 /// What is needed at any time: undo, pause and the like; above the column.
 void tool_bar(Ui& ui, ViewerState& state, vec2 position, vec2 size);

@@ -95,6 +95,7 @@ void panel_column(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
                                  ImGuiWindowFlags_AlwaysVerticalScrollbar; // nothing moves when a fold opens
   if (ImGui::Begin("##panels", nullptr, flags)) {
     statistics_panel(ui, state);
+    compare_panel(ui, state);
     display_panel(ui, state);
     inspect_panel(ui, state);
     camera_panel(ui, state);

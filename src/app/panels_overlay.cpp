@@ -37,6 +37,7 @@ constexpr KeyHelp kHelp[] = {
     {"V, G, R, T", "select, move, rotate, scale; Ctrl snaps"},
     {"M", "show or hide the lights and the selection"},
     {"Ctrl+B, Ctrl+Alt+B", "render a region, all again"},
+    {"C, N, B", "compare two settings; how they are shown; flip"},
     {"K, L", "pause or go on, one sample more"},
     {"Ctrl+Z, Ctrl+Y", "undo, redo (or Ctrl+Shift+Z)"},
     {"1 to 9, Ctrl+1 to 9", "go to a bookmark, store one"},

@@ -143,6 +143,27 @@ vec2 PlotFrame::position(PlotPoint p) const {
   return {lo.x + within(x.fraction(p.x)) * (hi.x - lo.x), hi.y - within(y.fraction(p.y)) * (hi.y - lo.y)};
 }
 
+std::vector<std::pair<vec2, vec2>> strokes_of(std::span<const vec2> points, float dash) {
+  std::vector<std::pair<vec2, vec2>> out;
+  float walked = 0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const vec2 a = points[i], b = points[i + 1];
+    const float length = glm::length(b - a);
+    if (dash <= 0) {
+      out.emplace_back(a, b);
+      continue;
+    }
+    for (float at = 0; at < length;) {
+      const float phase = std::fmod(walked + at, 2 * dash);
+      const float step = std::min((phase < dash ? dash : 2 * dash) - phase + 1e-3f, length - at);
+      if (phase < dash) out.emplace_back(glm::mix(a, b, at / length), glm::mix(a, b, (at + step) / length));
+      at += step;
+    }
+    walked += length;
+  }
+  return out;
+}
+
 std::string fitted_text(const PlotPainter& painter, std::string_view text, float room) {
   if (painter.text_width(text) <= room) return std::string(text);
   while (!text.empty()) {

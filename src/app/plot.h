@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace candela {
@@ -100,6 +101,9 @@ struct PlotFrame {
 /// Draws title, axes with ticks and grid, lines, and a legend in the corner where it covers least, all within
 /// [lo, hi].
 PlotFrame draw_plot(const Plot& plot, vec2 lo, vec2 hi, const PlotTheme& theme, PlotPainter& painter);
+
+/// The strokes of a line: dashes of that length with gaps as long between them; 0: all of it.
+std::vector<std::pair<vec2, vec2>> strokes_of(std::span<const vec2> points, float dash);
 
 /// The text, its end replaced by an ellipsis where it is wider than `room`.
 std::string fitted_text(const PlotPainter& painter, std::string_view text, float room);

@@ -39,17 +39,8 @@ public:
       list_.AddPolyline(line.data(), static_cast<int>(line.size()), color_of(color), 0, width);
       return;
     }
-    const float dash = 4 * std::max(width, 1.0f);
-    float walked = 0;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      const vec2 a = points[i], b = points[i + 1];
-      const float length = glm::length(b - a);
-      for (float at = dash * (2 * std::ceil(walked / (2 * dash)) - walked / dash); at < length;
-           at += 2 * dash)
-        list_.AddLine(to_im(glm::mix(a, b, at / length)),
-                      to_im(glm::mix(a, b, std::min((at + dash) / length, 1.0f))), color_of(color), width);
-      walked += length;
-    }
+    for (auto [a, b] : strokes_of(points, 4 * std::max(width, 1.0f)))
+      list_.AddLine(to_im(a + 0.5f), to_im(b + 0.5f), color_of(color), width);
   }
   void dot(vec2 center, float radius, Rgb8 color) override {
     list_.AddCircleFilled(to_im(center + 0.5f), radius, color_of(color));

@@ -50,8 +50,10 @@ std::string scene_title(const ViewerState& state) {
 std::string denoised_text(const DenoisedImage& image) { return fmt::format("denoised ({} spp)", image.spp); }
 
 Viewer::Viewer(const Gl& gl, ViewerOptions options)
-    : gl_(gl), options_(std::move(options)), draw_(gl), viewport_(gl), session_(make_session(options_)),
-      reader_(options_.wake), writer_(options_.wake), inspector_(gl, options_.wake), lab_(options_.wake) {
+    : gl_(gl), options_(std::move(options)), draw_(gl), viewport_(gl), other_viewport_(gl),
+      difference_viewport_(gl), session_(make_session(options_)),
+      compare_({options_.threads, options_.wake, options_.screenshot_folder}), reader_(options_.wake),
+      writer_(options_.wake), inspector_(gl, options_.wake), lab_(options_.wake) {
   imgui_ = ImGui::CreateContext();
   ImGui::SetCurrentContext(imgui_);
   ImGuiIO& io = ImGui::GetIO();
@@ -96,6 +98,7 @@ void Viewer::frame(double now) {
   }
   viewport_.show(session_->display());
   state_.picture = viewport_.shown();
+  update_compare();
 
   io.DisplaySize = ImVec2(static_cast<float>(framebuffer_.x), static_cast<float>(framebuffer_.y));
   ImGui::NewFrame();
@@ -112,15 +115,20 @@ void Viewer::frame(double now) {
   serve_requests();
   fit_film();
   keep_history();
+  if (state_.edited && state_.compare.active) compare_.follow(state_.compare, state_.document);
   submit();
   send_region();
+  serve_compare_requests();
   ImGui::Render();
 
   if (framebuffer_.x > 0 && framebuffer_.y > 0) {
     gl_.Viewport(0, 0, framebuffer_.x, framebuffer_.y);
     gl_.ClearColor(kBackgroundGrey, kBackgroundGrey, kBackgroundGrey, 1);
     gl_.Clear(GL_COLOR_BUFFER_BIT);
-    viewport_.draw(picture_rect(), framebuffer_);
+    if (state_.compare.active)
+      draw_comparison();
+    else
+      viewport_.draw(picture_rect(), framebuffer_);
     draw_.draw(*ImGui::GetDrawData());
   }
   state_.frame_ms =
@@ -130,13 +138,15 @@ void Viewer::frame(double now) {
 bool Viewer::wants_redraw() const {
   return !events_.empty() || redraws_ > 0 || fly_command().any() || reader_.has_completions() ||
          writer_.has_completions() || inspector_.wants_redraw() || lab_.has_news() ||
-         session_->display() != viewport_.shown() || session_->status().phase != drawn_phase_;
+         session_->display() != viewport_.shown() || session_->status().phase != drawn_phase_ ||
+         comparison_wants_redraw();
 }
 
 double Viewer::idle_seconds() const {
   if (fly_command().any()) return 0;
   if (typing_ && std::ranges::any_of(ImGui::GetIO().KeysDown, std::identity())) return 0; // keys repeat
-  if (is_busy(drawn_phase_) || typing_ || state_.loading > 0 || history_.pending()) return kBusyRedrawSeconds;
+  if (is_busy(drawn_phase_) || compare_.busy() || typing_ || state_.loading > 0 || history_.pending())
+    return kBusyRedrawSeconds;
   double idle = kIdleRedrawSeconds;
   if (state_.inspect.focus_mark)
     idle = std::min(idle, std::max(state_.inspect.focus_mark->until - now_, 0.0) + 0.01);
@@ -175,6 +185,13 @@ PixelRect Viewer::free_region() const {
 }
 
 PixelRect Viewer::picture_rect() const {
+  if (!state_.compare.active) return single_picture_rect();
+  const ComparePanes panes = compare_panes();
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  return panes.sides[static_cast<std::size_t>(panes.side_at({mouse.x, mouse.y}))].picture;
+}
+
+PixelRect Viewer::single_picture_rect() const {
   const ivec2 film = state_.picture ? ivec2(state_.picture->width, state_.picture->height)
                                     : glm::max(framebuffer_, ivec2(1));
   if (!state_.fit_film)
@@ -194,6 +211,8 @@ void Viewer::draw_ui() {
     panel_column(ui_, state_, vec2(free_size.x, tools), vec2(width, free_size.y - tools));
     status_line(ui_, state_, vec2(0, free_size.y), vec2(window.x, window.y - free_size.y));
   }
+  if (state_.compare.active)
+    compare_overlay(ui_, state_.compare, compare_panes(), compare_.difference() != nullptr);
   inspector_.draw(ui_, state_, picture_rect(), free, now_);
   if (state_.error.empty()) picture_label(ui_, state_, vec2(0));
   lab_.draw(ui_, state_.lab_visible, vec2(0), free_size);
@@ -224,7 +243,7 @@ void Viewer::serve_requests() {
   if (state_.select_requested) select(*state_.select_requested);
   state_.select_requested.reset();
   if (state_.paused != shown_paused_) session_->pause(shown_paused_ = state_.paused);
-  if (state_.step_requested) session_->step(), state_.paused = shown_paused_ = true;
+  if (state_.step_requested) session_->step(), compare_.step(), state_.paused = shown_paused_ = true;
   state_.step_requested = false;
   if (state_.reset_view_requested) {
     state_.edited |= state_.document.scene.camera != state_.home.scene.camera;

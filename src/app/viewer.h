@@ -3,6 +3,8 @@
 // program, the tests drive it through OSMesa; it is the same code. It runs on one thread, the UI's, and never
 // waits for rendering, reading or writing.
 
+#include "app/compare_layout.h"
+#include "app/compare_mode.h"
 #include "app/edit_history.h"
 #include "app/event.h"
 #include "app/fly_camera.h"
@@ -68,6 +70,9 @@ public:
   PixelRect picture_rect() const;
   const Viewport& viewport() const { return viewport_; }
   const LabPanel& lab() const { return lab_; }
+  /// Where A and B lie, while they are compared.
+  ComparePanes compare_panes() const;
+  const CompareMode& comparison() const { return compare_; }
   ImGuiContext* imgui() const { return imgui_; }
 
 private:
@@ -133,7 +138,16 @@ private:
                      const Bounds3& bounds);
   void save_shown_picture();
 
+  // viewer_compare.cpp
+  void update_compare();
+  void serve_compare_requests();
+  void exchange_sides();
+  bool use_mouse_on_comparison();
+  void draw_comparison();
+  bool comparison_wants_redraw() const;
+
   // viewer.cpp
+  PixelRect single_picture_rect() const;
   void update_scale();
   void draw_ui();
   void fit_film();
@@ -194,8 +208,14 @@ private:
   std::uint64_t failed_generation_ = 0; // whose error was shown already
   std::uint64_t open_requests_ = 0;
 
+  Viewport other_viewport_, difference_viewport_; // of a comparison
+  std::shared_ptr<OpenScene> compared_scene_;
+  bool divider_held_ = false, flip_down_ = false;
+  double flip_since_ = 0;
+
   // Last, so that they end first: they call `wake`, and their completions use what stands above.
   std::unique_ptr<RenderSession> session_;
+  CompareMode compare_;
   TaskThread reader_;
   TaskThread writer_;
   Inspector inspector_;

@@ -46,6 +46,7 @@ void Viewer::set_camera(const Camera& camera) {
 }
 
 void Viewer::use_mouse_on_picture() {
+  if (use_mouse_on_comparison()) return;
   const ImGuiIO& io = ImGui::GetIO();
   if (!io.WantCaptureMouse && io.MouseWheel != 0) turn_wheel(io.MouseWheel);
   const vec2 mouse(io.MousePos.x, io.MousePos.y);
@@ -179,6 +180,7 @@ void Viewer::send_region() {
   }
   if (window == sent_region_) return;
   session_->set_region(sent_region_ = window);
+  compare_.set_region(window);
 }
 
 void Viewer::frame_selection() {

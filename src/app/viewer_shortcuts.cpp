@@ -58,6 +58,10 @@ void Viewer::run_control_shortcut(const KeyPress& press) {
 
 void Viewer::run_plain_shortcut(Key key) {
   switch (key) {
+  case Key::c: state_.compare.toggle_requested = true; break;
+  case Key::n:
+    if (state_.compare.active) state_.compare.layout = next_layout(state_.compare.layout);
+    break;
   case Key::tab: state_.panels_visible = !state_.panels_visible; break;
   case Key::f1: state_.help_visible = !state_.help_visible; break;
   case Key::f2: state_.lab_visible = !state_.lab_visible; break;

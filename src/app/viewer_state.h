@@ -1,6 +1,7 @@
 #pragma once
 // What the panels look at and change. They only ask (open this, save that); the Viewer does.
 
+#include "app/compare_state.h"
 #include "app/gizmo.h"
 #include "app/inspect_state.h"
 #include "app/orbit_camera.h"
@@ -68,6 +69,8 @@ struct ViewerState {
   std::string undo_name; ///< of the edit that would be undone; empty: none
   std::string redo_name;
   InspectState inspect;
+
+  CompareState compare;
 
   // Requests to the Viewer.
   std::optional<std::string> open_path; ///< of a scene, or of a picture that is to light this one
