@@ -36,7 +36,7 @@ void Viewer::light_with(std::shared_ptr<const Panorama> panorama) {
 
 void Viewer::open_scene(const std::string& path) {
   state_.loading_path = path;
-  (is_image_name(path) ? state_.panorama_input : state_.path_input) = path;
+  if (!is_image_name(path)) state_.path_input = path; // a panorama's name stands in its light
   const std::uint64_t request = ++open_requests_;
   reader_.post([this, path, request, reading = options_.reading]() -> TaskThread::Completion {
     std::string problem;

@@ -61,7 +61,6 @@ TEST(ViewerEnvironmentUi, ADroppedPictureLightsTheScene) {
   // Another one, typed; it takes the place of the first, with its own mapping.
   hand.click("light.file");
   const std::string ball = write_sky(folder, "ball.pfm", 21, 21);
-  for (std::size_t i = 0; i < sky.size(); ++i) hand.key(Key::backspace);
   hand.type(ball);
   hand.click("light.open");
   hand.wait_until("the panorama is another", [&] {
