@@ -42,6 +42,9 @@ int run(int argc, char** argv) {
   add_common_options(app, view_options); // `candela SCENE` is `candela view SCENE`
   auto* view = app.add_subcommand("view", "Open the window (the default)");
   add_common_options(*view, view_options);
+  bool no_preferences = false;
+  for (CLI::App* command : {static_cast<CLI::App*>(&app), view})
+    command->add_flag("--no-preferences", no_preferences, "Neither read nor write what the window remembers");
 
   RenderOptions render_options;
   auto* render = app.add_subcommand("render", "Render a scene to files");
@@ -128,7 +131,7 @@ int run(int argc, char** argv) {
   if (convert->parsed()) return run_convert(convert_options, converted);
   if (settings->parsed()) return run_settings(json, markdown);
   if (lab.parsed()) return lab.run();
-  return run_view(view_options);
+  return run_view(view_options, !no_preferences);
 }
 
 } // namespace

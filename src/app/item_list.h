@@ -1,6 +1,8 @@
 #pragma once
 // A list box of which only the rows in view are drawn: a scene may have ten thousand objects.
 
+#include "app/widgets.h"
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -17,11 +19,15 @@ inline std::string name_or_number(const std::string& name, std::string_view kind
 
 /// `row(i)` draws row i. Scrolls to `reveal` unless it is negative.
 template <class Row>
-void item_list(const char* id, std::size_t count, int reveal, Row row) {
+void item_list(Ui& ui, const char* name, std::size_t count, int reveal, Row row) {
   constexpr std::size_t kRows = 6;
   const auto rows = static_cast<float>(std::clamp<std::size_t>(count, 1, kRows));
   const float line = ImGui::GetTextLineHeightWithSpacing();
-  if (!ImGui::BeginListBox(id, ImVec2(-1, rows * line + 2 * ImGui::GetStyle().FramePadding.y))) return;
+  const std::string id = fmt::format("##{}", name);
+  if (!ImGui::BeginListBox(id.c_str(), ImVec2(-1, rows * line + 2 * ImGui::GetStyle().FramePadding.y))) {
+    ui.record(name); // scrolled away
+    return;
+  }
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(count), line);
   while (clipper.Step())
@@ -32,6 +38,7 @@ void item_list(const char* id, std::size_t count, int reveal, Row row) {
       ImGui::SetScrollY(std::max(0.0f, top - 0.5f * (rows - 1) * line));
   }
   ImGui::EndListBox();
+  ui.record(name);
 }
 
 } // namespace candela

@@ -137,10 +137,10 @@ void status_line(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
     cell(seconds_text(status.render_seconds), 80);
     cell(si(per_second(status.rays.samples, status.render_seconds)) + " samples/s", 138);
     std::string talk = state.notice;
-    if (state.loading > 0)
+    if (state.reading)
       talk = fmt::format("loading {} …", std::filesystem::path(state.loading_path).filename().string());
     else if (talk.empty())
-      talk = scene_title(state);
+      talk = scene_title(state) + (state.modified ? "*" : "");
     if (state.picture && state.picture->denoised)
       talk += "    " + denoised_text(*state.picture->denoised);
     else if (state.document.settings.display.denoise && state.document.settings.view == View::radiance)

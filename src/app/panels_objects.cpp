@@ -100,7 +100,7 @@ void objects_panel(Ui& ui, ViewerState& state) {
   }
   const bool selected = state.selection.kind == Selection::Kind::object;
   const int chosen = selected ? state.selection.index : -1;
-  item_list("##objects", instances.size(), state.reveal_selection ? chosen : -1, [&](std::size_t i) {
+  item_list(ui, "list.objects", instances.size(), state.reveal_selection ? chosen : -1, [&](std::size_t i) {
     if (ui.item(fmt::format("objects/{}", i), name_or_number(instances[i].name, "Object", i).c_str(),
                 static_cast<int>(i) == chosen))
       state.select_requested = Selection{Selection::Kind::object, static_cast<int>(i)};

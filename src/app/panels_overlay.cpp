@@ -1,4 +1,4 @@
-// What lies over the picture: errors, help, the hint of the first seconds. Nothing of it is modal.
+// What lies over the picture: help, the hint of the first seconds. Nothing of it is modal.
 
 #include "app/panels.h"
 
@@ -43,6 +43,7 @@ constexpr KeyHelp kHelp[] = {
     {"1 to 9, Ctrl+1 to 9", "go to a bookmark, store one"},
     {"I, H", "probe the pixel under the mouse, hold it"},
     {"O", "show what is in focus"},
+    {"Ctrl+S, Ctrl+Shift+S", "save the scene, under another name"},
     {"P", "save PNG and EXR under new names"},
     {"Tab", "hide or show all panels"},
     {"Ctrl + - 0", "larger, smaller, normal text"},
@@ -54,24 +55,6 @@ constexpr KeyHelp kHelp[] = {
 };
 
 } // namespace
-
-void error_strip(Ui& ui, ViewerState& state, vec2 position, float width) {
-  if (state.error.empty() || width < 1) return;
-  ImGui::SetNextWindowPos(ImVec2(position.x, position.y));
-  ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, 1e6f));
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.36f, 0.12f, 0.10f, 0.97f));
-  if (ImGui::Begin("##error", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
-    const float button = 72 * ui.scale();
-    ImGui::PushTextWrapPos(std::max(width - button - 3 * ImGui::GetStyle().WindowPadding.x, 1.0f));
-    ImGui::TextUnformatted(state.error.c_str());
-    ImGui::PopTextWrapPos();
-    ui.record("error.text");
-    ImGui::SameLine(std::max(width - button - ImGui::GetStyle().WindowPadding.x, 1.0f));
-    if (ui.button("error.dismiss", "Dismiss", {}, button)) state.error.clear();
-  }
-  ImGui::End();
-  ImGui::PopStyleColor();
-}
 
 void help_overlay(Ui& ui, ViewerState& state, vec2 center, vec2 room) {
   if (!state.help_visible) return;

@@ -61,7 +61,7 @@ void materials_panel(Ui& ui, ViewerState& state) {
     return;
   }
   state.selected_material = std::clamp(state.selected_material, 0, static_cast<int>(materials.size()) - 1);
-  item_list("##materials", materials.size(), state.reveal_selection ? state.selected_material : -1,
+  item_list(ui, "list.materials", materials.size(), state.reveal_selection ? state.selected_material : -1,
             [&](std::size_t i) {
               if (ui.item(fmt::format("materials/{}", i),
                           name_or_number(materials[i].name, "Material", i).c_str(),
@@ -95,7 +95,7 @@ void lights_panel(Ui& ui, ViewerState& state) {
     return;
   }
   state.selected_light = std::clamp(state.selected_light, 0, static_cast<int>(count) - 1);
-  item_list("##lights", count, state.reveal_selection ? state.selected_light : -1, [&](std::size_t i) {
+  item_list(ui, "list.lights", count, state.reveal_selection ? state.selected_light : -1, [&](std::size_t i) {
     const bool is_light = i < lights.size();
     const std::size_t index = is_light ? i : shining[i - lights.size()];
     const std::string name = is_light ? fmt::format("lights/{}", index) : fmt::format("emitters/{}", index);
@@ -120,7 +120,7 @@ void lights_panel(Ui& ui, ViewerState& state) {
 
 void scenes_panel(Ui& ui, ViewerState& state) {
   if (!ui.section("panel.scenes", "Scenes", false)) return;
-  item_list("##scenes", state.scenes.size(), -1, [&](std::size_t i) {
+  item_list(ui, "list.scenes", state.scenes.size(), -1, [&](std::size_t i) {
     const std::string path = state.scenes[i].string();
     if (ui.item(fmt::format("scenes/{}", i), state.scenes[i].stem().string().c_str(),
                 path == state.scene_path))
@@ -134,6 +134,21 @@ void scenes_panel(Ui& ui, ViewerState& state) {
   ImGui::SameLine();
   const bool pressed = ui.button("scene.open", "Open", "Reads the scene beside the running one", button);
   if ((entered || pressed) && !state.path_input.empty()) state.open_path = state.path_input;
+  if (ui.button("scene.save", "Save", "Writes the scene as JSON (Ctrl+S)", button))
+    state.save_scene_requested = true;
+  ImGui::SameLine();
+  if (ui.button("scene.save_as", "Save as", "Writes it under another name (Ctrl+Shift+S)", 1.2f * button))
+    state.save_scene_requested = state.save_as_requested = true;
+  if (!state.recent.empty()) {
+    ImGui::TextDisabled("Recent");
+    item_list(ui, "list.recent", state.recent.size(), -1, [&](std::size_t i) {
+      const std::string& path = state.recent[i];
+      if (ui.item(fmt::format("recent/{}", i), std::filesystem::path(path).filename().string().c_str(),
+                  path == state.scene_path))
+        state.open_path = path;
+      ui.tooltip(path);
+    });
+  }
   for (const std::string& warning : state.warnings) {
     ImGui::PushTextWrapPos();
     ImGui::TextDisabled("%s", warning.c_str());

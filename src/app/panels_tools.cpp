@@ -50,7 +50,7 @@ void tool_buttons(Ui& ui, ViewerState& state) {
       {Tool::rotate, "tool.rotate", "Rotate", "Rings that turn the selection (R); Ctrl snaps to 15 degrees"},
       {Tool::scale, "tool.scale", "Scale", "Handles that scale the selection (T; S flies); Ctrl snaps"},
   };
-  ButtonRow row(ui, ImGui::GetContentRegionAvail().x, 5);
+  ButtonRow row(ui, ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize, 5);
   for (const auto& entry : kTools)
     if (row.button(entry.name, entry.label, entry.tip, true, state.tool == entry.tool))
       state.tool = entry.tool;
@@ -73,7 +73,7 @@ void tool_bar(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
                    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                        ImGuiWindowFlags_NoBringToFrontOnFocus)) {
-    ButtonRow row(ui, ImGui::GetContentRegionAvail().x, 4);
+    ButtonRow row(ui, ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize, 4);
     if (row.button("undo", "Undo", step_tip("undo", state.undo_name, "Ctrl+Z"), !state.undo_name.empty()))
       state.undo_requested = true;
     if (row.button("redo", "Redo", step_tip("redo", state.redo_name, "Ctrl+Shift+Z, Ctrl+Y"),

@@ -3,9 +3,13 @@
 #include "app/window_glfw.h"
 #include "core/error.h"
 
+#include <fmt/format.h>
+
+#include <cstdio>
+
 namespace candela {
 
-int run_view(const SceneOptions& options) {
+int run_view(const SceneOptions& options, bool use_preferences) {
   // Before the scene is read: who has no display need not wait for it.
   if (!display_available())
     throw Error(ExitCode::display,
@@ -19,6 +23,13 @@ int run_view(const SceneOptions& options) {
   viewer.reading = {options.allow_outside};           // holds for scenes opened later, too
   for (const std::string& setting : options.settings) // who asks for a size gets it
     if (setting.starts_with("film.width=") || setting.starts_with("film.height=")) viewer.fit_film = false;
+  if (use_preferences) viewer.preferences_path = default_preferences_path();
+  if (!viewer.preferences_path.empty()) {
+    std::string warning;
+    viewer.preferences = read_preferences(viewer.preferences_path, warning);
+    if (!warning.empty())
+      viewer.warnings.push_back(warning), fmt::print(stderr, "candela: warning: {}\n", warning);
+  }
   for (const Warning& w : loaded.warnings) viewer.warnings.push_back(w.text);
   run_window(std::move(viewer));
   return 0;

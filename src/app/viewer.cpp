@@ -52,8 +52,8 @@ std::string denoised_text(const DenoisedImage& image) { return fmt::format("deno
 Viewer::Viewer(const Gl& gl, ViewerOptions options)
     : gl_(gl), options_(std::move(options)), draw_(gl), viewport_(gl), other_viewport_(gl),
       difference_viewport_(gl), session_(make_session(options_)),
-      compare_({options_.threads, options_.wake, options_.screenshot_folder}), reader_(options_.wake),
-      writer_(options_.wake), inspector_(gl, options_.wake), lab_(options_.wake) {
+      compare_({options_.threads, options_.wake, options_.screenshot_folder}), watch_(options_.wake),
+      reader_(options_.wake), writer_(options_.wake), inspector_(gl, options_.wake), lab_(options_.wake) {
   imgui_ = ImGui::CreateContext();
   ImGui::SetCurrentContext(imgui_);
   ImGuiIO& io = ImGui::GetIO();
@@ -64,16 +64,30 @@ Viewer::Viewer(const Gl& gl, ViewerOptions options)
   map_keys();
   state_.scenes = bundled_scenes();
   state_.fit_film = options_.fit_film;
+  preferences_ = written_preferences_ = options_.preferences;
+  state_.panels_visible = preferences_.panels_visible;
+  state_.overlays_visible = preferences_.overlays_visible;
+  state_.speed_factor = preferences_.speed_factor;
+  state_.recent = preferences_.recent;
+  text_zoom_ = preferences_.text_zoom;
+  ui_.set_open_sections(preferences_.open_sections);
   const Bounds3 bounds = scene_bounds(options_.document.scene);
   install_scene(std::move(options_.document), options_.scene_path, std::move(options_.warnings), bounds);
   history_.reset(edit_state());
+  if (!options_.scene_path.empty()) remember_recent(options_.scene_path);
 }
 
-Viewer::~Viewer() { ImGui::DestroyContext(imgui_); }
+Viewer::~Viewer() {
+  reading_.request_stop();
+  write_preferences_if_changed();
+  ImGui::DestroyContext(imgui_);
+}
 
 void Viewer::handle(Event event) { events_.push_back(std::move(event)); }
 
-std::string Viewer::title() const { return scene_title(state_) + " - Candela"; }
+std::string Viewer::title() const {
+  return fmt::format("{}{} - Candela", scene_title(state_), state_.modified ? "*" : "");
+}
 
 void Viewer::frame(double now) {
   const auto began = std::chrono::steady_clock::now();
@@ -89,7 +103,10 @@ void Viewer::frame(double now) {
   writer_.run_completions();
   update_scale();
   state_.status = session_->status();
+  if (state_.status.phase != SessionPhase::building || drawn_phase_ != SessionPhase::building)
+    state_.building_since = now;
   drawn_phase_ = state_.status.phase;
+  state_.now = now;
   state_.loading = reader_.pending();
   if (now > notice_until_) state_.notice.clear();
   if (state_.status.phase == SessionPhase::failed && failed_generation_ != state_.status.submitted) {
@@ -137,7 +154,7 @@ void Viewer::frame(double now) {
 
 bool Viewer::wants_redraw() const {
   return !events_.empty() || redraws_ > 0 || fly_command().any() || reader_.has_completions() ||
-         writer_.has_completions() || inspector_.wants_redraw() || lab_.has_news() ||
+         writer_.has_completions() || watch_.has_change() || inspector_.wants_redraw() || lab_.has_news() ||
          session_->display() != viewport_.shown() || session_->status().phase != drawn_phase_ ||
          comparison_wants_redraw();
 }
@@ -216,7 +233,7 @@ void Viewer::draw_ui() {
   inspector_.draw(ui_, state_, picture_rect(), free, now_);
   if (state_.error.empty()) picture_label(ui_, state_, vec2(0));
   lab_.draw(ui_, state_.lab_visible, vec2(0), free_size);
-  error_strip(ui_, state_, vec2(0), free_size.x);
+  message_strips(ui_, state_, vec2(0), free_size.x);
   help_overlay(ui_, state_, 0.5f * free_size, 0.96f * free_size);
   const vec2 bottom_center(0.5f * free_size.x, free_size.y);
   if (!shows_panels() && !state_.notice.empty())
@@ -250,12 +267,7 @@ void Viewer::serve_requests() {
     state_.document.scene.camera = state_.home.scene.camera;
     notify("The view is the scene's own again");
   }
-  if (state_.save_requested && state_.picture) { // before the first one the wish is kept
-    save_shown_picture();
-    state_.save_requested = false;
-  }
-  if (state_.open_path) open_scene(*state_.open_path);
-  state_.open_path.reset();
+  serve_file_requests();
   state_.reset_view_requested = false;
 }
 
@@ -271,18 +283,6 @@ void Viewer::serve_view_requests() {
 }
 
 EditState Viewer::edit_state() const { return {state_.document, state_.fit_film, scene_}; }
-
-void Viewer::show_state(const EditState& edit) {
-  state_.document = edit.document;
-  state_.fit_film = edit.fit_film;
-  scene_ = edit.scene;
-  state_.home = scene_->home;
-  state_.scene_path = scene_->path;
-  state_.warnings = scene_->warnings;
-  state_.bounds = scene_->bounds;
-  state_.natural_speed = natural_speed(scene_->bounds, scene_->home.scene.camera);
-  state_.edited = true;
-}
 
 void Viewer::submit() {
   // Fast geometry while it moves; once the hand rests it is built well, even if nothing changed since.
@@ -312,6 +312,7 @@ void Viewer::keep_history() {
   }
   if (steps) fit_film(); // the window may have another size by now
   state_.undo_requested = state_.redo_requested = false;
+  if (!in_gesture && (state_.edited || state_.undo_name != history_.undo_name())) update_modified();
   state_.undo_name = history_.undo_name();
   state_.redo_name = history_.redo_name();
 }

@@ -7,6 +7,7 @@
 #include "app/compare_mode.h"
 #include "app/edit_history.h"
 #include "app/event.h"
+#include "app/file_watch.h"
 #include "app/fly_camera.h"
 #include "app/gizmo.h"
 #include "app/gl.h"
@@ -14,6 +15,7 @@
 #include "app/inspector.h"
 #include "app/panels.h"
 #include "app/panels_lab.h"
+#include "app/preferences.h"
 #include "app/projection.h"
 #include "app/task_thread.h"
 #include "app/viewer_state.h"
@@ -38,6 +40,8 @@ struct ViewerOptions {
   bool fit_film = true;                          ///< the film follows the window; else the document's size
   int threads = 0;                               ///< for rendering; 0: every core
   std::filesystem::path screenshot_folder = "."; ///< where P saves
+  Preferences preferences;
+  std::filesystem::path preferences_path; ///< where they are written; empty: nowhere
   std::function<void()> wake; ///< called from any thread when there is something to draw; may be empty
 };
 
@@ -132,7 +136,17 @@ private:
 
   // viewer_files.cpp
   /// Reads a scene in the background, or a picture that lights the present one.
-  void open_scene(const std::string& path);
+  void open_scene(const std::string& path, bool reload);
+  void finish_opening(const std::string& path, LoadedScene& loaded, const Bounds3& bounds, bool reload);
+  void cancel_opening();
+  void look_for_changes();
+  bool is_bundled(const std::string& path) const;
+  void save_scene();
+  void save_scene_to(const std::string& path);
+  void serve_file_requests();
+  void update_modified();
+  void remember_recent(const std::string& path);
+  void write_preferences_if_changed();
   void light_with(std::shared_ptr<const Panorama> panorama);
   void install_scene(Document document, std::string path, std::vector<std::string> warnings,
                      const Bounds3& bounds);
@@ -207,6 +221,9 @@ private:
   bool wants_close_ = false;
   std::uint64_t failed_generation_ = 0; // whose error was shown already
   std::uint64_t open_requests_ = 0;
+  std::stop_source reading_;
+  bool quit_after_save_ = false;
+  Preferences preferences_, written_preferences_;
 
   Viewport other_viewport_, difference_viewport_; // of a comparison
   std::shared_ptr<OpenScene> compared_scene_;
@@ -216,6 +233,7 @@ private:
   // Last, so that they end first: they call `wake`, and their completions use what stands above.
   std::unique_ptr<RenderSession> session_;
   CompareMode compare_;
+  FileWatch watch_;
   TaskThread reader_;
   TaskThread writer_;
   Inspector inspector_;

@@ -1,4 +1,4 @@
-// Scenes in, pictures out: all of it beside the UI thread.
+// Scenes in and out, pictures out: all of it beside the UI thread.
 
 #include "app/picture_saver.h"
 #include "app/viewer.h"
@@ -6,12 +6,39 @@
 #include "io/image_file.h"
 #include "io/panorama_reader.h"
 #include "io/scene_builder.h"
+#include "io/scene_export.h"
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace candela {
 
+namespace fs = std::filesystem;
+
 namespace {
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code failed;
+  return a == b || fs::equivalent(a, b, failed);
+}
+
+/// The scene's file and all that it was made from.
+std::vector<std::string> files_of(const OpenScene& scene) {
+  std::set<std::string> files;
+  for (const Instance& instance : scene.saved.scene.instances)
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape))
+      files.insert((*mesh)->source);
+  for (const auto& texture : scene.saved.scene.textures) files.insert(texture->source);
+  if (!scene.path.empty()) files.insert(scene.path);
+  files.erase("");
+  return {files.begin(), files.end()};
+}
+
+std::string opened_text(const char* verb, const std::string& path, std::size_t warnings) {
+  if (warnings == 0) return fmt::format("{} {}", verb, path);
+  return fmt::format("{} {} with {} warning{}: see Scenes", verb, path, warnings, warnings == 1 ? "" : "s");
+}
 
 /// The picture at the path, unless it is none or holds a scene.
 std::shared_ptr<const Panorama> panorama_without_scene(const std::string& path, const ReadOptions& reading) {
@@ -34,33 +61,34 @@ void Viewer::light_with(std::shared_ptr<const Panorama> panorama) {
   state_.edited = true;
 }
 
-void Viewer::open_scene(const std::string& path) {
+void Viewer::open_scene(const std::string& path, bool reload) {
+  reading_.request_stop(); // the newest wish counts
+  reading_ = std::stop_source();
   state_.loading_path = path;
-  if (!is_image_name(path)) state_.path_input = path; // a panorama's name stands in its light
+  state_.loading_since = now_;
+  if (!reload && !is_image_name(path)) state_.path_input = path; // a panorama's name stands in its light
   const std::uint64_t request = ++open_requests_;
-  reader_.post([this, path, request, reading = options_.reading]() -> TaskThread::Completion {
+  state_.reading = true;
+  ReadOptions options = options_.reading;
+  options.stop = reading_.get_token();
+  reader_.post([this, path, request, reload, options]() -> TaskThread::Completion {
     std::string problem;
     try {
-      if (auto panorama = panorama_without_scene(path, reading))
+      if (auto panorama = panorama_without_scene(path, options))
         return [this, path, request, panorama] {
           if (request != open_requests_) return;
+          state_.reading = false;
           light_with(panorama);
           notify(fmt::format("{} lights the scene: see Lights", path));
         };
-      LoadedScene loaded = read_scene(path, reading);
+      LoadedScene loaded = read_scene(path, options);
       problem = camera_problem(loaded.document.scene.camera);
       if (problem.empty()) {
         const Bounds3 bounds = scene_bounds(loaded.document.scene);
-        return [this, path, request, bounds, scene = std::make_shared<LoadedScene>(std::move(loaded))] {
-          if (request != open_requests_) return; // another was asked for meanwhile
-          std::vector<std::string> warnings;
-          for (const Warning& warning : scene->warnings) warnings.push_back(warning.text);
-          install_scene(std::move(scene->document), path, std::move(warnings), bounds);
-          const std::size_t count = state_.warnings.size();
-          notify(count == 0 ? fmt::format("Opened {}", path)
-                            : fmt::format("Opened {} with {} warning{}: see Scenes", path, count,
-                                          count == 1 ? "" : "s"));
-        };
+        return
+            [this, path, request, reload, bounds, scene = std::make_shared<LoadedScene>(std::move(loaded))] {
+              if (request == open_requests_) finish_opening(path, *scene, bounds, reload);
+            };
       }
       problem = fmt::format("{}: {}", path, problem);
     } catch (const std::bad_alloc&) {
@@ -68,17 +96,197 @@ void Viewer::open_scene(const std::string& path) {
     } catch (const std::exception& error) { // an Error, or what a library throws: shown either way
       problem = error.what();
     }
-    return [this, problem] { state_.error = problem; };
+    return [this, problem, request] {
+      if (request != open_requests_) return; // given up, or another was asked for meanwhile
+      state_.reading = false;
+      state_.error = problem;
+    };
   });
+}
+
+void Viewer::finish_opening(const std::string& path, LoadedScene& loaded, const Bounds3& bounds,
+                            bool reload) {
+  state_.reading = false;
+  std::vector<std::string> warnings;
+  for (const Warning& warning : loaded.warnings) warnings.push_back(warning.text);
+  const Selection selection = state_.selection;
+  const int material = state_.selected_material, light = state_.selected_light;
+  Camera seen = state_.document.scene.camera;
+  install_scene(std::move(loaded.document), path, std::move(warnings), bounds);
+  if (reload) { // what is on the screen stays where it is
+    state_.document.scene.camera = seen;
+    state_.selection = checked_selection(state_.document.scene, selection);
+    state_.selected_material = material;
+    state_.selected_light = light;
+  } else {
+    remember_recent(path);
+  }
+  notify(opened_text(reload ? "Reloaded" : "Opened", path, state_.warnings.size()));
 }
 
 void Viewer::install_scene(Document document, std::string path, std::vector<std::string> warnings,
                            const Bounds3& bounds) {
-  scene_ = std::make_shared<OpenScene>(
+  auto scene = std::make_shared<OpenScene>(
       OpenScene{std::move(path), document, document, bounds, std::move(warnings)});
-  show_state({std::move(document), state_.fit_film, scene_});
+  show_state({std::move(document), state_.fit_film, std::move(scene)});
   state_.selected_material = state_.selected_light = 0;
+  state_.selection = {};
   state_.error.clear();
+  state_.question = Question::none;
+}
+
+void Viewer::show_state(const EditState& edit) {
+  state_.document = edit.document;
+  state_.fit_film = edit.fit_film;
+  if (scene_ != edit.scene) watch_.watch(files_of(*edit.scene));
+  scene_ = edit.scene;
+  state_.home = scene_->home;
+  state_.scene_path = scene_->path;
+  state_.warnings = scene_->warnings;
+  state_.bounds = scene_->bounds;
+  state_.natural_speed = natural_speed(scene_->bounds, scene_->home.scene.camera);
+  state_.edited = true;
+}
+
+/// Gives up reading; the scene that is shown stays.
+void Viewer::cancel_opening() {
+  if (!state_.reading) return;
+  reading_.request_stop();
+  ++open_requests_;
+  state_.reading = false;
+  notify(fmt::format("Gave up opening {}", state_.loading_path));
+}
+
+void Viewer::look_for_changes() {
+  if (!watch_.take_change() || state_.reading || scene_->path.empty()) return;
+  std::error_code failed;
+  if (!fs::exists(scene_->path, failed)) return; // an editor is between removing and renaming
+  if (state_.modified)
+    state_.question = Question::reload;
+  else
+    open_scene(scene_->path, true);
+}
+
+bool Viewer::is_bundled(const std::string& path) const {
+  return std::ranges::any_of(state_.scenes,
+                             [&](const fs::path& scene) { return same_file(scene.string(), path); });
+}
+
+/// Into the scene's own file if it is one of ours to write; otherwise asks where to.
+void Viewer::save_scene() {
+  const std::string& path = scene_->path;
+  const bool elsewhere = std::exchange(state_.save_as_requested, false);
+  if (!elsewhere && !path.empty() && fs::path(path).extension() == ".json" && !is_bundled(path)) {
+    save_scene_to(path);
+    return;
+  }
+  const std::string stem = path.empty() ? "scene" : fs::path(path).stem().string();
+  // Beside what it came from, so that meshes are named relative to it; examples are copied to where one
+  // works.
+  const fs::path folder = path.empty() || is_bundled(path) ? fs::path() : fs::path(path).parent_path();
+  state_.save_path = (folder / (stem + ".json")).string();
+  state_.save_as_visible = true;
+}
+
+void Viewer::save_scene_to(const std::string& path) {
+  std::error_code failed;
+  if (fs::path(path).extension() != ".json") {
+    state_.error = fmt::format("{}: scenes are saved as .json: give the name that ending", path);
+    return;
+  }
+  const bool own = same_file(path, scene_->path);
+  if (!own && fs::exists(path, failed) && state_.replace_path != path) {
+    state_.replace_path = path; // asked once
+    state_.question = Question::replace;
+    return;
+  }
+  state_.replace_path.clear();
+  state_.question = Question::none;
+  state_.save_as_visible = false;
+  Document document = state_.document;
+  if (state_.fit_film) { // the window's size is not the scene's
+    document.settings.film.width = state_.home.settings.film.width;
+    document.settings.film.height = state_.home.settings.film.height;
+  }
+  writer_.post([this, path, document = std::move(document), scene = scene_]() -> TaskThread::Completion {
+    try {
+      export_candela_json(document, path); // pictures from elsewhere come along
+      return [this, path, document, scene] {
+        scene->path = path;
+        scene->saved = document;
+        if (scene == scene_) state_.scene_path = path, watch_.watch(files_of(*scene_));
+        remember_recent(path);
+        update_modified();
+        notify(fmt::format("Saved {}", path));
+        if (quit_after_save_) wants_close_ = true;
+      };
+    } catch (const std::exception& error) {
+      return [this, problem = std::string(error.what())] {
+        state_.error = problem;
+        quit_after_save_ = false;
+      };
+    }
+  });
+}
+
+void Viewer::serve_file_requests() {
+  if (state_.save_requested && state_.picture) { // before the first one the wish is kept
+    save_shown_picture();
+    state_.save_requested = false;
+  }
+  if (state_.cancel_requested) cancel_opening();
+  if (state_.open_path) open_scene(*state_.open_path, false);
+  if (state_.reload_requested) open_scene(scene_->path, true);
+  if (state_.save_scene_requested) save_scene();
+  if (state_.save_to) save_scene_to(*state_.save_to);
+  if (state_.close_requested) {
+    // Asked once: who wants to leave twice means it.
+    if (!state_.modified || state_.question == Question::quit)
+      wants_close_ = true;
+    else
+      state_.question = Question::quit;
+  }
+  if (state_.save_and_quit_requested) {
+    quit_after_save_ = true;
+    save_scene();
+  }
+  state_.open_path.reset();
+  state_.save_to.reset();
+  state_.cancel_requested = state_.reload_requested = state_.save_scene_requested = state_.close_requested =
+      state_.save_and_quit_requested = false;
+  look_for_changes();
+}
+
+void Viewer::update_modified() {
+  state_.modified = differs_from_file(state_.document, scene_->saved, state_.fit_film);
+}
+
+void Viewer::remember_recent(const std::string& path) {
+  add_recent(preferences_, path);
+  state_.recent = preferences_.recent;
+  write_preferences_if_changed();
+}
+
+void Viewer::write_preferences_if_changed() {
+  if (options_.preferences_path.empty()) return;
+  preferences_.panels_visible = state_.panels_visible;
+  preferences_.overlays_visible = state_.overlays_visible;
+  preferences_.text_zoom = text_zoom_;
+  preferences_.speed_factor = state_.speed_factor;
+  preferences_.open_sections = ui_.open_sections();
+  if (const ivec2 size(vec2(framebuffer_) / content_scale_); std::min(size.x, size.y) >= 64)
+    preferences_.window = size;
+  if (preferences_ == written_preferences_) return;
+  written_preferences_ = preferences_;
+  writer_.post(
+      [this, preferences = preferences_, path = options_.preferences_path]() -> TaskThread::Completion {
+        try {
+          write_preferences(preferences, path);
+          return [] {};
+        } catch (const std::exception& error) {
+          return [this, problem = std::string(error.what())] { state_.error = problem; };
+        }
+      });
 }
 
 void Viewer::save_shown_picture() {

@@ -123,7 +123,7 @@ void Viewer::apply(const Event& event) {
                  [&](const FilesDropped& e) {
                    if (!e.paths.empty()) state_.open_path = e.paths.front();
                  },
-                 [&](const CloseRequested&) { wants_close_ = true; },
+                 [&](const CloseRequested&) { state_.close_requested = true; },
                  [&](const FocusLost&) {
                    std::ranges::fill(io.KeysDown, false);
                    std::ranges::fill(io.MouseDown, false);

@@ -40,8 +40,11 @@ void Viewer::run_shortcuts() {
 
 void Viewer::run_control_shortcut(const KeyPress& press) {
   switch (press.key) {
-  case Key::q: wants_close_ = true; break;
-  case Key::s: state_.save_requested = true; break;
+  case Key::q: state_.close_requested = true; break;
+  case Key::s:
+    state_.save_scene_requested = true;
+    state_.save_as_requested |= press.shift;
+    break;
   case Key::z: (press.shift ? state_.redo_requested : state_.undo_requested) = true; break;
   case Key::y: state_.redo_requested = true; break;
   case Key::b:
@@ -88,6 +91,14 @@ void Viewer::run_plain_shortcut(Key key) {
 void Viewer::escape() {
   if (gesture_ != Gesture::none)
     cancel_gesture();
+  else if (state_.reading)
+    state_.cancel_requested = true;
+  else if (state_.status.phase == SessionPhase::building && state_.now - state_.building_since > 1)
+    state_.undo_requested = true; // what is being built takes long: back to what was
+  else if (state_.question != Question::none)
+    state_.question = Question::none;
+  else if (state_.save_as_visible)
+    state_.save_as_visible = false;
   else if (state_.region_armed)
     state_.region_armed = false;
   else if (state_.help_visible)

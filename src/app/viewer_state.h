@@ -24,6 +24,9 @@ struct PictureRegion {
   bool operator==(const PictureRegion&) const = default;
 };
 
+/// What a strip over the picture asks; nothing waits for the answer.
+enum class Question { none, quit, reload, replace };
+
 struct ViewerState {
   Document document;   ///< what the user sees and edits
   Document home;       ///< as it was loaded: what the camera, materials and lights are reset to
@@ -45,6 +48,9 @@ struct ViewerState {
   float frame_ms = 0;                          ///< CPU time that the last frame of the window took
   int loading = 0;                             ///< scenes being read
   std::string loading_path;
+  bool reading = false; ///< a scene that will be shown
+  double now = 0;       ///< the window's clock, seconds
+  double loading_since = 0, building_since = 0;
 
   std::string error;                 ///< shown in a strip until dismissed; empty: none
   std::vector<std::string> warnings; ///< of the scene
@@ -65,6 +71,13 @@ struct ViewerState {
   std::optional<PictureRegion> region;           ///< only this accumulates
   bool region_armed = false;                     ///< the next drag over the picture sets it
 
+  bool modified = false; ///< there are edits that the scene's file has not
+  Question question = Question::none;
+  std::string replace_path; ///< the file that Question::replace is about
+  bool save_as_visible = false;
+  std::string save_path;           ///< what is typed there
+  std::vector<std::string> recent; ///< scenes opened or saved of late
+
   bool paused = false;   ///< the user's wish; `status` tells what is
   std::string undo_name; ///< of the edit that would be undone; empty: none
   std::string redo_name;
@@ -77,6 +90,13 @@ struct ViewerState {
   bool save_requested = false;
   bool reset_view_requested = false;
   bool refresh_scenes_requested = false;
+  bool save_scene_requested = false;
+  bool save_as_requested = false; ///< and under another name
+  bool close_requested = false;
+  bool save_and_quit_requested = false;
+  bool reload_requested = false;
+  bool cancel_requested = false; ///< of the scene that is being read
+  std::optional<std::string> save_to;
   bool undo_requested = false;
   bool redo_requested = false;
   bool step_requested = false;

@@ -76,10 +76,16 @@ void Ui::tooltip(std::string_view text) {
 }
 
 bool Ui::section(const char* name, const char* label, bool open_at_first) {
+  const auto known = open_sections_.find(name);
+  if (known != open_sections_.end()) ImGui::SetNextItemOpen(known->second, ImGuiCond_Once);
   const bool open =
       ImGui::CollapsingHeader(fmt::format("{}##{}", label, name).c_str(),
                               open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
   record(name);
+  if (known != open_sections_.end())
+    known->second = open;
+  else if (open != open_at_first)
+    open_sections_[name] = open;
   return open;
 }
 

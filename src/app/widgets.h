@@ -4,6 +4,7 @@
 
 #include "core/fields.h"
 
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,6 +38,9 @@ public:
 
   /// A fold; true while it is open.
   bool section(const char* name, const char* label, bool open_at_first);
+  /// Which folds are open where that is not how they are at first, by name; to be remembered.
+  const std::map<std::string, bool>& open_sections() const { return open_sections_; }
+  void set_open_sections(std::map<std::string, bool> open) { open_sections_ = std::move(open); }
   bool subsection(const char* name, const char* label, bool open_at_first);
   bool button(const char* name, const char* label, std::string_view tooltip = {}, float width = 0);
   bool item(const std::string& name, const char* label, bool selected);
@@ -86,6 +90,7 @@ private:
   static NumberStyle style_of(const FieldInfo& row, double value, const FieldContext& context);
 
   float scale_ = 1;
+  std::map<std::string, bool> open_sections_;
   std::vector<WidgetRecord> widgets_;
   // A number that is being typed counts when it is done: 1 and 19 are not meant by who types 192.
   unsigned typing_ = 0; // ImGui's id of the field, 0: none

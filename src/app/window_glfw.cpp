@@ -14,7 +14,6 @@ namespace candela {
 
 namespace {
 
-constexpr ivec2 kWindowSize(1280, 720); // at scale 1
 // Without a GPU every drawn frame is taken from the renderer; 30 a second look smooth, input may have 60.
 constexpr double kPictureInterval = 1 / 30.0;
 constexpr double kInputInterval = 1 / 60.0;
@@ -100,7 +99,7 @@ Key layout_key(int glfw_key, int scancode) {
 class Window {
 public:
   explicit Window(ViewerOptions options) {
-    open();
+    open(options.preferences.window);
     gl_ = load_gl([](const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); });
     options.wake = [] { glfwPostEmptyEvent(); }; // may be called from any thread
     viewer_ = std::make_unique<Viewer>(gl_, std::move(options));
@@ -118,7 +117,7 @@ public:
   void run();
 
 private:
-  void open();
+  void open(ivec2 size); ///< at scale 1
   void connect();
   void send_size();
   vec2 framebuffer_position(double x, double y) const;
@@ -144,7 +143,7 @@ float monitor_scale(GLFWwindow* window) {
   return mode != nullptr ? std::clamp(static_cast<float>(mode->height) / 1080, 1.0f, 4.0f) : 1.0f;
 }
 
-void Window::open() {
+void Window::open(ivec2 size) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -153,7 +152,7 @@ void Window::open() {
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE); // until it has its size
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "candela");
-  window_ = glfwCreateWindow(kWindowSize.x, kWindowSize.y, "Candela", nullptr, nullptr);
+  window_ = glfwCreateWindow(size.x, size.y, "Candela", nullptr, nullptr);
   if (window_ == nullptr)
     throw Error(
         ExitCode::display,
@@ -163,7 +162,7 @@ void Window::open() {
   int x = 0, y = 0, width = 0, height = 0;
   if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
     glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
-    const ivec2 wanted = ivec2(vec2(kWindowSize) * monitor_scale(window_));
+    const ivec2 wanted = ivec2(vec2(size) * monitor_scale(window_));
     const ivec2 room = width > 0 && height > 0 ? ivec2(width, height) : wanted;
     glfwSetWindowSize(window_, std::min(wanted.x, room.x), std::min(wanted.y, room.y));
   }

@@ -155,6 +155,7 @@ private:
   void meshes(JsonValue object) {
     expect(object, JsonType::object, "meshes");
     for (auto [key, value] : object.members()) {
+      builder_.warnings().check_stop();
       std::string element = fmt::format("meshes.{}", key.string().substr(0, 60));
       expect(value, JsonType::object, element);
       std::string name = key.string();

@@ -30,6 +30,7 @@ ObjLines::ObjLines(std::string file, std::string& text, WarningList& warnings)
 
 ObjLines::int_type ObjLines::underflow() {
   while (next_ < text_.size()) {
+    warnings_.check_stop();
     std::size_t begin = next_, end = text_.find('\n', begin); // the text ends in one
     next_ = end + 1;
     line_ += 1 + skipped_breaks_;

@@ -107,6 +107,7 @@ public:
     std::vector<vec3> outline;
     std::vector<std::array<int, 3>> triangles;
     for (const Face& face : c_.faces) {
+      warnings_.check_stop();
       std::span<const Corner> corners(c_.corners.data() + face.first, static_cast<std::size_t>(face.count));
       outline.clear();
       for (const Corner& corner : corners) outline.push_back(position(corner));

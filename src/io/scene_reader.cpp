@@ -51,7 +51,7 @@ Document read_by_ending(const FoundFile& file, const ReadOptions& options, const
 } // namespace
 
 LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
-  WarningList warnings;
+  WarningList warnings(options.stop);
   LoadedScene loaded;
   if (lower_ending(path) == ".ini") {
     IniJob job = read_ini_job(path, options.allow_outside);

@@ -12,6 +12,7 @@ namespace candela {
 
 struct ReadOptions {
   bool allow_outside = false; ///< may a scene name files outside of its own folder's tree?
+  std::stop_token stop = {};  ///< ends reading with ReadCancelled
 };
 
 struct LoadedScene {

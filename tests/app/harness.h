@@ -128,6 +128,7 @@ struct HarnessOptions {
   float scale = 1;
   bool fit_film = false; ///< a small fixed film keeps the tests quick
   std::filesystem::path screenshot_folder = ".";
+  std::filesystem::path preferences = {}; ///< empty: nothing is remembered
 };
 
 /// One at a time: the newest context is the current one.
@@ -273,7 +274,7 @@ public:
     unfold("group.override", "override.brdf");
     unfold("group.ao", "ao.distance");
     unfold("group.adaptive", "adaptive.error");
-    unfold("panel.objects", "objects/0");
+    unfold("panel.objects", "list.objects");
     unfold("panel.materials", "material.type");
     if (!find("light.type") && !find("emitter.emission.r")) click("panel.lights");
     unfold("panel.scenes", "scene.path");
@@ -309,6 +310,9 @@ private:
     out.fit_film = options.fit_film;
     out.screenshot_folder = options.screenshot_folder;
     out.threads = 2;
+    std::string warning;
+    out.preferences_path = options.preferences;
+    if (!options.preferences.empty()) out.preferences = read_preferences(options.preferences, warning);
     return out;
   }
 

@@ -20,7 +20,7 @@ constexpr int kBallIndex = 6;
 TEST(ViewerSelectionUi, AClickSelectsAndThePanelsFollow) {
   ViewerHarness hand;
   hand.wait_for_picture();
-  hand.unfold("panel.objects", "objects/0");
+  hand.unfold("panel.objects", "list.objects");
   hand.unfold("panel.materials", "material.type");
   hand.click(shown(hand, kBall));
   hand.frame(2);
@@ -171,7 +171,7 @@ TEST(ViewerSelectionUi, APointLightMovesByItsHandles) {
 TEST(ViewerSelectionUi, NumbersPlaceAnObject) {
   ViewerHarness hand;
   hand.wait_for_picture();
-  hand.unfold("panel.objects", "objects/0");
+  hand.unfold("panel.objects", "list.objects");
   hand.click(shown(hand, kBall));
   hand.frame(2);
   hand.type_into("object.position.y", "0.25");

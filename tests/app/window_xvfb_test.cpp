@@ -133,7 +133,8 @@ TEST_F(RealWindowUi, FliesSavesAndCloses) {
   write_candela_json(test_document(), folder / "room.json");
   const XServer server(folder.path(), {1280, 720});
   const fs::path log = folder / "candela.log";
-  Process candela({CANDELA_PROGRAM, "view", "room.json"}, folder.path(), server.display(), log);
+  Process candela({CANDELA_PROGRAM, "view", "room.json", "--no-preferences"}, folder.path(), server.display(),
+                  log);
 
   std::string window;
   ASSERT_TRUE(comes_true([&] {

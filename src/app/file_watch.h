@@ -1,0 +1,51 @@
+#pragma once
+// Tells when files change on the disk, by looking at them now and then on a thread of its own.
+
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace candela {
+
+class FileWatch {
+public:
+  /// `wake` is called from the watching thread when there is a change.
+  explicit FileWatch(std::function<void()> wake, double seconds_between_looks = 0.5);
+  ~FileWatch();
+  FileWatch(const FileWatch&) = delete;
+  FileWatch& operator=(const FileWatch&) = delete;
+
+  /// Watches these instead, as they are now.
+  void watch(std::vector<std::string> files);
+
+  /// Whether any of them was written, made or removed since, and then came to rest: a file that is still
+  /// being written would be read half. True once for each such change.
+  bool take_change();
+  bool has_change() const;
+
+private:
+  struct Stamp {
+    bool exists = false;
+    std::filesystem::file_time_type written;
+    std::uintmax_t size = 0;
+    bool operator==(const Stamp&) const = default;
+  };
+  using Stamps = std::vector<Stamp>;
+  static Stamps look(const std::vector<std::string>& files);
+  void run(double seconds);
+
+  std::function<void()> wake_;
+  mutable std::mutex mutex_; // never held while files are looked at
+  std::condition_variable ended_;
+  std::vector<std::string> files_;
+  std::uint64_t generation_ = 0; ///< of files_
+  bool changed_ = false;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+} // namespace candela

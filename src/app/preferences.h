@@ -1,0 +1,37 @@
+#pragma once
+// What the window remembers from one day to the next: its size, its layout, the files of late.
+
+#include "core/math.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace candela {
+
+struct Preferences {
+  ivec2 window{1280, 720}; ///< at scale 1
+  float text_zoom = 1;
+  float speed_factor = 1;
+  bool panels_visible = true;
+  bool overlays_visible = true;
+  std::map<std::string, bool> open_sections; ///< by the widget's name
+  std::vector<std::string> recent;           ///< absolute paths, the last one first
+  bool operator==(const Preferences&) const = default;
+};
+
+/// $XDG_CONFIG_HOME/candela/preferences.json, or below ~/.config; empty where there is neither.
+std::filesystem::path default_preferences_path();
+
+/// What of the file makes sense; its own defaults for the rest. `warning` says what was left out; a missing
+/// file is no reason for one.
+Preferences read_preferences(const std::filesystem::path& path, std::string& warning);
+
+/// Makes the folder if need be; the file appears whole or not at all. output_error if it cannot be written.
+void write_preferences(const Preferences& preferences, const std::filesystem::path& path);
+
+/// Puts the file at the front of the list, which has each once and at most some ten.
+void add_recent(Preferences& preferences, const std::string& path);
+
+} // namespace candela
