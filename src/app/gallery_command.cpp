@@ -1,6 +1,7 @@
 #include "app/gallery_command.h"
 
 #include "app/data_file.h"
+#include "app/denoised_picture.h"
 #include "app/figure.h"
 #include "app/picture_output.h"
 #include "app/progress_bar.h"
@@ -8,6 +9,7 @@
 #include "io/image_file.h"
 #include "io/scene_reader.h"
 #include "render/compare.h"
+#include "render/film_view.h"
 #include "session/offline_render.h"
 
 #include <fmt/format.h>
@@ -28,9 +30,15 @@ constexpr int kReferenceSeed = 0x5eed;
 struct Rendering {
   Image image;
   RgbPicture picture; ///< as it is displayed
-  int spp = 0;
-  double seconds = 0;
+  int spp = 0;        ///< on average, where adaptive sampling spread them
+  double seconds = 0; ///< with the denoiser's
+  bool denoised = false;
 };
+
+int mean_samples(const OfflineResult& result) {
+  const double pixels = static_cast<double>(result.film.width()) * result.film.height();
+  return static_cast<int>(std::lround(static_cast<double>(result.rays.samples) / pixels));
+}
 
 class GalleryMaker {
 public:
@@ -120,7 +128,16 @@ private:
     if (result.nonfinite.count > 0)
       fmt::print(stderr, "candela: warning: figure '{}': {} samples were not finite and are left out\n",
                  figure.name, result.nonfinite.count);
-    Rendering out{result.film.image(), {}, result.spp, result.render_seconds};
+    Rendering out{view_image(result.film, document.settings.view),
+                  {},
+                  mean_samples(result),
+                  result.render_seconds,
+                  false};
+    if (auto denoised = denoised_picture(document, result, offline.pass)) {
+      out.image = std::move(denoised->image);
+      out.seconds += denoised->seconds;
+      out.denoised = true;
+    }
     out.picture = {
         out.image.width, out.image.height,
         displayed_srgb8(out.image, document.settings.display, document.settings.view, result.display_scale)};
@@ -142,7 +159,8 @@ private:
     std::vector<FigurePanel> pictures, differences;
     for (const GalleryPanel& panel : source.panels) {
       const Rendering made = render(source, document_of(source, panel));
-      std::vector<std::string> caption{fmt::format("{} spp, {:.2f} s", made.spp, made.seconds)};
+      std::vector<std::string> caption{
+          fmt::format("{} spp, {}{:.2f} s", made.spp, made.denoised ? "denoised, " : "", made.seconds)};
       if (reference)
         caption.push_back("relMSE " + plot_number(relative_mse(made.image.pixels, reference->image.pixels)));
       pictures.push_back({panel.label, caption, made.picture, std::nullopt, std::nullopt});

@@ -1,13 +1,13 @@
 #include "app/render_command.h"
 
 #include "app/aov_output.h"
+#include "app/denoised_picture.h"
 #include "app/picture_output.h"
 #include "app/progress_bar.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "render/compare.h"
-#include "render/denoise_film.h"
 #include "render/film_view.h"
 #include "session/offline_render.h"
 
@@ -130,27 +130,6 @@ nlohmann::ordered_json stats_json(const Document& document, const OfflineResult&
   return j;
 }
 
-struct Denoised {
-  Image image;
-  double seconds; ///< features and all
-};
-
-/// The denoised picture where the settings ask for one; warns where there is nothing to make it from.
-std::optional<Denoised> denoised_picture(const Document& document, const OfflineResult& result,
-                                         const PassOptions& pass) {
-  if (!document.settings.display.denoise || document.settings.view != View::radiance) return std::nullopt;
-  if (result.spp < 2) {
-    fmt::print(stderr, "candela: warning: denoising takes two samples a pixel: the picture is as rendered\n");
-    return std::nullopt;
-  }
-  const auto start = std::chrono::steady_clock::now();
-  FeatureFilm features(result.film.width(), result.film.height());
-  auto image = denoise_render(noisy_image(result.film), result.spp, *result.scene, document, features,
-                              {pass.threads, nullptr});
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  return Denoised{cropped(std::move(*image), pass.crop), seconds.count()};
-}
-
 /// How far the picture is from the reference and, where it was denoised, how far it was before.
 std::string reference_json(const Image& picture, const Image* noisy, const Image& reference) {
   std::string text = comparison_json(compare_images(picture, reference));
@@ -198,7 +177,8 @@ int run_render(const RenderOptions& options) {
                       fmt::format("it has {}x{} pixels, the render {}x{}", reference->width,
                                   reference->height, image.width, image.height),
                       "render at the reference's --size");
-  std::optional<Denoised> denoised = denoised_picture(loaded.document, result, offline.pass);
+  std::optional<DenoisedPicture> denoised = denoised_picture(loaded.document, result, offline.pass);
+  if (denoised) denoised->image = cropped(std::move(denoised->image), offline.pass.crop);
   const Image& shown = denoised ? denoised->image : image;
   for (const std::string& path : outputs)
     write_picture(shown, path, loaded.document.settings.display, loaded.document.settings.view,

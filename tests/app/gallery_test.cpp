@@ -1,9 +1,11 @@
+#include "app/denoised_picture.h"
 #include "app/gallery_command.h"
 #include "app/picture_output.h"
 #include "core/error.h"
 #include "io/image_file.h"
 #include "io/scene_reader.h"
 #include "io/texture_reader.h"
+#include "render/film_view.h"
 #include "session/offline_render.h"
 #include "support/scratch_folder.h"
 
@@ -136,6 +138,31 @@ TEST(GalleryRender, APlainPictureIsTheRendersOwn) {
   EXPECT_EQ(written->height, 20);
   EXPECT_EQ(written->srgb, displayed_srgb8(result.film.image(), document.settings.display,
                                            document.settings.view, result.display_scale));
+}
+
+TEST(GalleryRender, APictureMayBeDenoisedOrAnotherView) {
+  const GalleryFolder gallery(
+      R"({"name": "smooth", "scene": "box.json", "size": [24, 20], "spp": 4,
+          "settings": {"display.denoise": true}},
+         {"name": "spread", "scene": "box.json", "size": [24, 20], "spp": 4, "settings": {"view": "variance"}})");
+  EXPECT_EQ(run_gallery(gallery.options()), 0);
+  Document document = read_scene(gallery.folder / "box.json").document;
+  document.settings.film.width = 24;
+  document.settings.film.height = 20;
+  document.settings.stop = {};
+  document.settings.stop.spp = 4;
+  document.settings.display.denoise = true;
+  OfflineResult result = render_document(document);
+  const auto denoised = denoised_picture(document, result, {});
+  ASSERT_TRUE(denoised);
+  EXPECT_EQ(
+      read_texture(gallery.folder / "out/smooth.png")->srgb,
+      displayed_srgb8(denoised->image, document.settings.display, View::radiance, result.display_scale));
+  document.settings.view = View::variance;
+  result = render_document(document);
+  EXPECT_EQ(read_texture(gallery.folder / "out/spread.png")->srgb,
+            displayed_srgb8(view_image(result.film, View::variance), document.settings.display,
+                            View::variance, result.display_scale));
 }
 
 TEST(GalleryRender, FiguresHoldPanelsDifferencesAndPlot) {
