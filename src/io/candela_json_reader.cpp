@@ -227,14 +227,14 @@ private:
                         fmt::format("there is no shape '{}'", kind.substr(0, 60)),
                         fmt::format("give one of {}", fmt::join(shape_names(), ", ")));
     }
-    shape_values(out.shape, parts, object.where(), element);
-    instance_materials(out, part("material"), part("materials"), file, object.where(), element);
+    shape_values(out.shape, parts, object, element);
+    instance_materials(out, part("material"), part("materials"), file, object, element);
     document_.scene.instances.push_back(std::move(out));
   }
 
   /// The values of the shape's kind; those of other kinds are errors.
-  static void shape_values(Shape& shape, const std::map<std::string_view, JsonValue>& parts,
-                           const Location& where, const std::string& element) {
+  static void shape_values(Shape& shape, const std::map<std::string_view, JsonValue>& parts, JsonValue object,
+                           const std::string& element) {
     auto rows = shape_fields(shape);
     for (std::string_view key : {"radius", "height", "minor_radius", "caps"}) {
       auto given = parts.find(key);
@@ -250,7 +250,7 @@ private:
     if (problem.empty()) return;
     std::string_view key = std::string_view(problem).substr(0, problem.find(':'));
     auto given = parts.find(key);
-    throw input_error(given == parts.end() ? where : given->second.where(),
+    throw input_error((given == parts.end() ? object : given->second).where(),
                       fmt::format("{}.{}", element, key), problem.substr(key.size() + 2),
                       "correct it, or scale the shape by its transform");
   }
@@ -270,7 +270,7 @@ private:
   }
 
   void instance_materials(Instance& out, const JsonValue* all, const JsonValue* by_slot, MeshFile* file,
-                          const Location& where, const std::string& element) {
+                          JsonValue object, const std::string& element) {
     const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&out.shape);
     const std::vector<std::string> one{""};
     const std::vector<std::string>& slots = mesh ? (*mesh)->slot_names : one;
@@ -299,7 +299,7 @@ private:
       int& material = out.materials[slot];
       if (material < 0 && file) {
         material = builder_.imported_material(*file, slot);
-        if (material < 0) material = builder_.missing_material(*file, slot, where);
+        if (material < 0) material = builder_.missing_material(*file, slot, object.where());
       }
       if (material < 0) material = builder_.default_material();
     }
