@@ -1,5 +1,6 @@
 // The scenes in scenes/: each reads without a word and says what its description promises.
 
+#include "core/color.h"
 #include "scene_files.h"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ TEST(ShippedScenes, AreReadWithoutWarningsAndRoundTrip) {
     write_candela_json(loaded.document, files / "copy.json");
     EXPECT_TRUE(same_content(files.read("copy.json", {true}).document, loaded.document));
   }
-  EXPECT_GE(count, 6);
+  EXPECT_GE(count, 18);
 }
 
 const Instance& named(const LoadedScene& scene, const std::string& name) {
@@ -78,6 +79,67 @@ TEST(ShippedScenes, NothingInTheFurnaceLosesLight) {
   }
   ASSERT_EQ(furnace.document.scene.lights.size(), 1u);
   EXPECT_EQ(furnace.document.scene.lights[0].color, vec3(1));
+}
+
+/// pi times area times radiance, of a sphere or a rectangle that is scaled alike in x and y.
+double power(const LoadedScene& scene, const std::string& name) {
+  const Instance& lamp = named(scene, name);
+  const double scale = glm::length(transform_vector(lamp.world_from_object, {1, 0, 0}));
+  const auto* ball = std::get_if<SphereShape>(&lamp.shape);
+  const double side = ball ? scale * ball->radius : 2 * scale;
+  const Material& material = scene.document.scene.materials[lamp.materials.at(0)];
+  return (ball ? 4 * kPi : 1) * kPi * side * side * luminance(material.emission);
+}
+
+TEST(ShippedScenes, LampsHaveThePowerThatIsPromised) {
+  const LoadedScene veach = read_scene(shipped("veach_mis.json"));
+  const double first = power(veach, "smallest lamp");
+  for (const char* name : {"small lamp", "big lamp", "biggest lamp"})
+    EXPECT_NEAR(power(veach, name) / first, 1, 0.01) << name;
+  const LoadedScene two = read_scene(shipped("two_lamps.json"));
+  EXPECT_NEAR(power(two, "giant lamp") / power(two, "tiny lamp"), 1, 0.01);
+}
+
+TEST(ShippedScenes, TheWhiteRoomSwallowsNothing) {
+  for (const Material& m : read_scene(shipped("white_room.json")).document.scene.materials) {
+    if (m.type == MaterialType::dielectric) {
+      EXPECT_EQ(m.transmittance - m.absorption, vec3(1)) << m.name;
+    } else if (m.emission == vec3(0)) {
+      const vec3 albedo = m.diffuse + (m.type == MaterialType::mirror ? m.specular : vec3(0));
+      EXPECT_LT(glm::distance(albedo, vec3(1)), 1e-6f) << m.name;
+    }
+  }
+}
+
+TEST(ShippedScenes, TenThousandBallsDoNotTouch) {
+  const LoadedScene field = read_scene(shipped("ten_thousand_spheres.json"));
+  std::vector<glm::vec4> balls; // centre, radius
+  for (const Instance& i : field.document.scene.instances)
+    if (const auto* ball = std::get_if<SphereShape>(&i.shape))
+      balls.emplace_back(transform_point(i.world_from_object, vec3(0)), ball->radius);
+  ASSERT_EQ(balls.size(), 10000u);
+  std::ranges::sort(balls, {}, &glm::vec4::x);
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    for (std::size_t j = i + 1; j < balls.size() && balls[j].x - balls[i].x < balls[i].w + 0.2f; ++j)
+      ASSERT_GT(glm::distance(vec3(balls[i]), vec3(balls[j])), balls[i].w + balls[j].w) << i << " and " << j;
+}
+
+TEST(ShippedScenes, TheClearSkyHasItsSunWhereTheGeneratorPutsIt) {
+  const LoadedScene ruin = read_scene(shipped("sun_and_sky.json"));
+  const Image& sky = ruin.document.scene.lights.at(0).panorama->image;
+  double sun = 0, all = 0;
+  for (int y = 0; y < sky.height; ++y)
+    for (int x = 0; x < sky.width; ++x) {
+      const double elevation = 90 - 180 * (y + 0.5) / sky.height, azimuth = 360 * (x + 0.5) / sky.width - 180;
+      const double radiance = luminance(sky.pixels[static_cast<std::size_t>(y) * sky.width + x]);
+      if (elevation <= 0) continue;
+      const double received = radiance * std::cos(radians(static_cast<float>(elevation)));
+      all += received;
+      if (std::abs(elevation - 32) < 2 && std::abs(azimuth - 60) < 2) sun += received;
+    }
+  // On a surface that faces all of it the sun sends several times what the sky does.
+  EXPECT_GT(sun / all, 0.6);
+  EXPECT_LT(sun / all, 0.95);
 }
 
 } // namespace
