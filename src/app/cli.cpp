@@ -74,6 +74,8 @@ int run(int argc, char** argv) {
   render->add_option("--reference", render_options.reference,
                      "Compare with this picture; the result goes to stdout");
   render->add_option("--stats", render_options.stats, "Write what was measured to this file (JSON)");
+  render->add_flag("--no-state", render_options.no_state,
+                   "Do not keep the scene in PNG and EXR, from which they can be rendered again");
   render->add_flag("--quiet", render_options.quiet, "Say nothing but warnings and errors");
 
   std::string compare_a, compare_b;

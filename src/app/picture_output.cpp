@@ -28,6 +28,15 @@ ImageMetadata picture_metadata(int spp, bool denoised) {
   return metadata;
 }
 
+ImageMetadata with_state(ImageMetadata metadata, const PictureState& state, const std::string& path) {
+  if (!holds_state(image_format_of(path))) return metadata;
+  ImageMetadata texts = picture_state_texts(state, path);
+  if (texts.empty())
+    fmt::print(stderr, "candela: warning: {}: the scene is too large to be kept in the picture\n", path);
+  metadata.merge(texts);
+  return metadata;
+}
+
 void write_picture(const Image& image, const std::string& path, const DisplaySettings& display, View view,
                    float display_scale, const ImageMetadata& metadata) {
   if (is_linear_format(image_format_of(path)))

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/image_file.h"
+#include "io/picture_state.h"
 #include "render/render_pass.h"
 
 namespace candela {
@@ -20,5 +20,9 @@ ImageMetadata picture_metadata(int spp, bool denoised);
 /// Frame::display_scale.
 void write_picture(const Image& image, const std::string& path, const DisplaySettings& display, View view,
                    float display_scale, const ImageMetadata& metadata);
+
+/// `metadata` for a file at `path`, with the state from which the picture can be made again where the format
+/// has room for it; says so on stderr where it is too large.
+ImageMetadata with_state(ImageMetadata metadata, const PictureState& state, const std::string& path);
 
 } // namespace candela

@@ -31,6 +31,15 @@ bool reserve(const fs::path& path) {
                      "start Candela in a folder that you may write to");
 }
 
+/// What it takes to make the picture again.
+PictureState state_of(const DisplayImage& image) {
+  const Frame& frame = *image.frame;
+  PictureState state{*frame.document, std::max(image.denoised ? image.denoised->spp : frame.spp, 1), {}};
+  state.document.settings.display = image.display; // neither restarts an accumulation
+  state.document.settings.view = frame.view;
+  return state;
+}
+
 SavedPicture reserve_names(const fs::path& folder, const std::string& stem) {
   for (int number = 1; number < kMaxPictures; ++number) {
     const fs::path base = folder / fmt::format("{}-{:04}", stem, number);
@@ -54,8 +63,11 @@ SavedPicture save_picture(const DisplayImage& image, const fs::path& folder, con
                  image.rgba.begin() + static_cast<std::ptrdiff_t>(i + 3));
     const ImageMetadata metadata =
         picture_metadata(image.denoised ? image.denoised->spp : image.frame->spp, image.denoised != nullptr);
-    write_srgb8_image(image.width, image.height, rgb, names.png.string(), metadata);
-    write_linear_image({image.width, image.height, image.linear()}, names.exr.string(), metadata);
+    const PictureState state = state_of(image);
+    write_srgb8_image(image.width, image.height, rgb, names.png.string(),
+                      with_state(metadata, state, names.png.string()));
+    write_linear_image({image.width, image.height, image.linear()}, names.exr.string(),
+                       with_state(metadata, state, names.exr.string()));
   } catch (...) { // the reserved names are still empty files: take them back
     std::error_code ignored;
     fs::remove(names.png, ignored);

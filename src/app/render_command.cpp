@@ -154,7 +154,13 @@ int run_render(const RenderOptions& options) {
   double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - load_start).count();
 
   OfflineOptions offline;
+  if (loaded.crop)
+    offline.pass.crop = {loaded.crop->x, loaded.crop->y, loaded.crop->width, loaded.crop->height};
+  const FilmSettings loaded_film = loaded.document.settings.film;
   apply_options(options, loaded.document, offline.pass);
+  const FilmSettings& film = loaded.document.settings.film;
+  if (!options.crop && (film.width != loaded_film.width || film.height != loaded_film.height))
+    offline.pass.crop = {}; // the part that the picture shows is one of another film
   std::vector<std::string> outputs = options.outputs.empty() ? loaded.output_files : options.outputs;
   if (outputs.empty()) throw usage_error("render", "there is nowhere to write to", "add -o FILE");
   for (const std::string& path : outputs) image_format_of(path); // refuse before the work, not after
@@ -180,9 +186,13 @@ int run_render(const RenderOptions& options) {
   std::optional<DenoisedPicture> denoised = denoised_picture(loaded.document, result, offline.pass);
   if (denoised) denoised->image = cropped(std::move(denoised->image), offline.pass.crop);
   const Image& shown = denoised ? denoised->image : image;
-  for (const std::string& path : outputs)
+  PictureState state{loaded.document, std::max(result.spp, 1), {}};
+  if (const CropWindow& c = offline.pass.crop; c.width > 0) state.crop = {c.x, c.y, c.width, c.height};
+  for (const std::string& path : outputs) {
+    const ImageMetadata metadata = picture_metadata(result.spp, denoised.has_value());
     write_picture(shown, path, loaded.document.settings.display, loaded.document.settings.view,
-                  result.display_scale, picture_metadata(result.spp, denoised.has_value()));
+                  result.display_scale, options.no_state ? metadata : with_state(metadata, state, path));
+  }
   for (const std::string& path : write_aovs(aovs, outputs, loaded.document, result, offline))
     outputs.push_back(path);
 

@@ -19,6 +19,7 @@ struct RenderOptions {
   std::optional<std::string> reference;
   std::optional<std::string> stats;
   bool quiet = false;
+  bool no_state = false; ///< do not keep the scene in the pictures
 };
 
 /// Renders to files. Interrupted (SIGINT, SIGTERM) it writes what it has and returns 130 or 143.

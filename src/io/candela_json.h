@@ -66,6 +66,10 @@ namespace candela {
 /// offending token.
 Document read_candela_json(const FoundFile& file, const PathPolicy& policy, WarningList& warnings);
 
+/// The same from a text that lies in the file `shown` (a picture), and names files relative to its folder.
+Document parse_candela_json(std::string text, const std::string& shown, const PathPolicy& policy,
+                            WarningList& warnings);
+
 /// The document in the format above: what differs from the defaults. Numbers read back to the same bits.
 /// Mesh files inside the tree of `folder` are written by reference, relative to it, other meshes inline (a
 /// scene may not name files outside its tree); pictures by reference wherever they lie, inline only if they

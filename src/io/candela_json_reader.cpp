@@ -19,9 +19,8 @@ constexpr std::size_t kMaxJsonBytes = std::size_t{512} << 20;
 
 class CandelaReader {
 public:
-  CandelaReader(const FoundFile& file, const PathPolicy& policy, WarningList& warnings)
-      : folder_(folder_of(file.shown)),
-        tree_(file.shown, read_text_file(file.canonical, "scene", kMaxJsonBytes)),
+  CandelaReader(std::string text, const std::string& shown, const PathPolicy& policy, WarningList& warnings)
+      : folder_(folder_of(shown)), tree_(shown, std::move(text)),
         builder_(document_.scene, policy, MtlDialect::standard, warnings) {}
 
   Document run() {
@@ -343,7 +342,13 @@ private:
 } // namespace
 
 Document read_candela_json(const FoundFile& file, const PathPolicy& policy, WarningList& warnings) {
-  return CandelaReader(file, policy, warnings).run();
+  return parse_candela_json(read_text_file(file.canonical, "scene", kMaxJsonBytes), file.shown, policy,
+                            warnings);
+}
+
+Document parse_candela_json(std::string text, const std::string& shown, const PathPolicy& policy,
+                            WarningList& warnings) {
+  return CandelaReader(std::move(text), shown, policy, warnings).run();
 }
 
 } // namespace candela

@@ -219,6 +219,23 @@ Image decode(ByteView bytes, const Location& where) {
   return image;
 }
 
+/// Calls the library within its limits; what it throws becomes an Error.
+template <class Work>
+auto guarded(Work work, const Location& where) {
+  static std::once_flag limits;
+  std::call_once(limits, [] { // the library then refuses larger headers before it allocates for them
+    Imf::Header::setMaxImageSize(static_cast<int>(kMaxImageSide), static_cast<int>(kMaxImageSide));
+    Imf::Header::setMaxTileSize(8192, 8192);
+  });
+  try {
+    return work();
+  } catch (const Error&) { throw; } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& problem) { // Iex has many kinds, and all mean the same here
+    throw damaged_image(where, fmt::format("it is no valid EXR ({})", problem.what()));
+  }
+}
+
 } // namespace
 
 bool is_exr(ByteView bytes) {
@@ -226,18 +243,18 @@ bool is_exr(ByteView bytes) {
 }
 
 Image decode_exr(ByteView bytes, const Location& where) {
-  static std::once_flag limits;
-  std::call_once(limits, [] { // the library then refuses larger headers before it allocates for them
-    Imf::Header::setMaxImageSize(static_cast<int>(kMaxImageSide), static_cast<int>(kMaxImageSide));
-    Imf::Header::setMaxTileSize(8192, 8192);
-  });
-  try {
-    return decode(bytes, where);
-  } catch (const Error&) { throw; } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& problem) { // Iex has many kinds, and all mean the same here
-    throw damaged_image(where, fmt::format("it is no valid EXR ({})", problem.what()));
-  }
+  return guarded([&] { return decode(bytes, where); }, where);
+}
+
+std::optional<std::string> exr_text(ByteView bytes, const std::string& name, const Location& where) {
+  return guarded(
+      [&]() -> std::optional<std::string> {
+        MemoryInput stream(bytes, where.file);
+        Imf::InputFile file(stream);
+        const auto* text = file.header().findTypedAttribute<Imf::StringAttribute>(name);
+        return text ? std::optional(text->value()) : std::nullopt;
+      },
+      where);
 }
 
 Bytes encode_exr(const Image& image, const std::string& path, const ImageMetadata& metadata) {

@@ -82,6 +82,8 @@ Bytes encode_ppm(int width, int height, ByteView rgb);
 // exr.cpp: OpenEXR, flat parts, any compression; written as 32-bit float, ZIP.
 bool is_exr(ByteView bytes);
 Image decode_exr(ByteView bytes, const Location& where);
+/// The string attribute of that name; nothing if there is none.
+std::optional<std::string> exr_text(ByteView bytes, const std::string& name, const Location& where);
 /// `path` is for messages.
 Bytes encode_exr(const Image& image, const std::string& path, const ImageMetadata& metadata);
 

@@ -60,7 +60,7 @@ std::optional<FoundFile> PathPolicy::find(const std::string& reference, const st
                       "name it relative to the scene, or allow it with --allow-outside");
   // Resolved as written: "link/../x" is beside what the link points to.
   fs::path canonical = canonical_or_same(fs::path(base_folder) / name);
-  if (!allow_outside_ && !is_inside(canonical, root_))
+  if (!allow_outside_ && !is_inside(canonical, root_) && !admitted_.contains(canonical.string()))
     throw input_error(where, element,
                       fmt::format("'{}' lies outside the scene's folder tree ({})", reference, root_),
                       "move it there, or allow it with --allow-outside");

@@ -5,6 +5,7 @@
 #include "core/error.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -28,6 +29,9 @@ public:
   /// Files may lie in `root_folder` and below it, or anywhere if allow_outside.
   PathPolicy(const std::string& root_folder, bool allow_outside);
 
+  /// Lets this file be opened wherever it lies.
+  void admit(const std::string& canonical) { admitted_.insert(canonical); }
+
   /// The regular file that `reference`, written in a file of `base_folder`, means; nothing if there is none.
   /// Symbolic links are followed before the place is judged. Throws input_error at `where` (of `element`) for
   /// an absolute path and for a file outside the root, whether it exists or not, unless outside is allowed.
@@ -42,6 +46,7 @@ public:
 private:
   std::string root_; ///< canonical
   bool allow_outside_;
+  std::set<std::string> admitted_;
 };
 
 } // namespace candela

@@ -2,6 +2,7 @@
 
 #include "io/cs123_reader.h"
 #include "io/ini_job.h"
+#include "io/picture_state.h"
 #include "io/text_file.h"
 
 #include <fmt/format.h>
@@ -45,7 +46,7 @@ Document read_by_ending(const FoundFile& file, const ReadOptions& options, const
   if (ending == ".obj") return read_obj_scene(file, policy, warnings);
   if (ending == ".xml") return read_cs123(file, policy, warnings);
   throw input_error(where, "scene", fmt::format("no scene format is known by the ending '{}'", ending),
-                    "give a .json, .obj, .xml or .ini file");
+                    "give a .json, .obj, .xml or .ini file, or a .png or .exr that Candela saved");
 }
 
 } // namespace
@@ -58,6 +59,8 @@ LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
     loaded.document = read_by_ending(job.scene, options, {path}, warnings);
     loaded.document.settings = job.settings;
     if (!job.output.empty()) loaded.output_files.push_back(job.output);
+  } else if (std::string ending = lower_ending(path); ending == ".png" || ending == ".exr") {
+    loaded = read_picture_state(path, options, warnings);
   } else {
     // The scene itself may lie anywhere: the user has named it. Opening it says what is wrong with it.
     std::error_code failed;

@@ -5,6 +5,7 @@
 #include "io/warning_list.h"
 #include "scene/document.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,17 @@ struct ReadOptions {
   std::stop_token stop = {};  ///< ends reading with ReadCancelled
 };
 
+/// Pixels of the film.
+struct PictureCrop {
+  int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const PictureCrop&) const = default;
+};
+
 struct LoadedScene {
   Document document;
   std::vector<Warning> warnings;
   std::vector<std::string> output_files; ///< what an .ini job names
+  std::optional<PictureCrop> crop;       ///< the part of the film that a picture shows
 };
 
 /// Reads a scene by the ending of its name, in either case:
@@ -26,6 +34,7 @@ struct LoadedScene {
 /// - .json: Candela's own format (io/candela_json.h)
 /// - .obj: the mesh alone, framed by the camera; if nothing in it shines, a constant light is added
 /// - .xml: CS123 (io/cs123_reader.h)
+/// - .png, .exr: a picture that Candela saved, with the scene in it (io/picture_state.h)
 /// - .ini: a job of the path tracing assignment (io/ini_job.h), which names one of the others
 ///
 /// Throws Error with the exit code 3 (what the file says does not fit) or 4 (a limit), and a message

@@ -4,6 +4,7 @@
 #include "scene/document.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace candela {
@@ -39,6 +40,7 @@ struct Frame {
   int height = 0;
   int coarseness = 1; ///< side of the blocks of one sample while the first pass refines: 8, 4, 2, then 1
   int spp = 0;        ///< complete passes
+  std::shared_ptr<const Document> document; ///< as it was when the accumulation began
   View view = View::radiance;
   std::vector<vec3> linear; ///< the view; row 0 is the top; holes of a coarse pass filled from their block
   /// Per pixel, of the accumulated mean; empty while the first pass is coarse.

@@ -358,6 +358,7 @@ void RenderSession::State::publish(bool force) {
     snapshot->height = film.height();
     snapshot->coarseness = spp > 0 ? 1 : kCoarseLevels[level - 1];
     snapshot->spp = spp;
+    snapshot->document = scene_document;
     snapshot->view = current.settings.view;
     resolve_view(film, snapshot->view, snapshot->coarseness, snapshot->linear);
     if (spp > 0) resolve_statistics(film, snapshot->variance, snapshot->samples);
