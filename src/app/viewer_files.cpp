@@ -5,8 +5,10 @@
 #include "core/error.h"
 #include "io/image_file.h"
 #include "io/panorama_reader.h"
+#include "io/picture_state.h"
 #include "io/scene_builder.h"
 #include "io/scene_export.h"
+#include "io/text_file.h"
 
 #include <fmt/format.h>
 
@@ -41,15 +43,13 @@ std::string opened_text(const char* verb, const std::string& path, std::size_t w
 }
 
 /// The picture at the path, unless it is none or holds a scene.
-std::shared_ptr<const Panorama> panorama_without_scene(const std::string& path, const ReadOptions& reading) {
+std::shared_ptr<const Panorama> panorama_without_scene(const std::string& path) {
   if (!is_image_name(path)) return nullptr;
-  try {
-    read_scene(path, reading);
+  if (const std::string ending = lower_ending(path);
+      (ending == ".png" || ending == ".exr") && holds_picture_state(path))
     return nullptr;
-  } catch (const Error&) {
-    WarningList corrections; // of values that no light has: nothing that the user could mend
-    return read_panorama(std::span(&path, 1), corrections);
-  }
+  WarningList corrections; // of values that no light has: nothing that the user could mend
+  return read_panorama(std::span(&path, 1), corrections);
 }
 
 } // namespace
@@ -74,7 +74,7 @@ void Viewer::open_scene(const std::string& path, bool reload) {
   reader_.post([this, path, request, reload, options]() -> TaskThread::Completion {
     std::string problem;
     try {
-      if (auto panorama = panorama_without_scene(path, options))
+      if (auto panorama = panorama_without_scene(path))
         return [this, path, request, panorama] {
           if (request != open_requests_) return;
           state_.reading = false;

@@ -41,6 +41,8 @@ std::set<std::string> sources(const SceneDesc& scene) {
     if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape))
       files.insert((*mesh)->source);
   for (const auto& texture : scene.textures) files.insert(texture->source);
+  for (const LightDesc& light : scene.lights)
+    if (light.panorama) files.insert(light.panorama->sources.begin(), light.panorama->sources.end());
   files.erase("");
   return files;
 }
@@ -142,6 +144,8 @@ ImageMetadata picture_state_texts(const PictureState& state, const std::string& 
         fmt::format("{},{},{},{}", state.crop->x, state.crop->y, state.crop->width, state.crop->height);
   return texts;
 }
+
+bool holds_picture_state(const std::string& path) { return PictureTexts(path).find(kScene).has_value(); }
 
 LoadedScene read_picture_state(const std::string& path, const ReadOptions& options, WarningList& warnings) {
   const PictureTexts texts(path);

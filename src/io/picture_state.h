@@ -8,9 +8,9 @@
 //   candela.files   the files that it refers to: [{"path": …, "bytes": …, "hash": …}], relative to that
 //   folder candela.crop    "x,y,width,height", where the picture is a part of the film
 //
-// Meshes outside of the folder's tree are written into the scene, textures are not. A file outside of the
-// tree is opened only while it has the recorded content, so that nobody's picture can make the program read a
-// file that its maker did not know.
+// Meshes outside of the folder's tree are written into the scene, textures and panoramas are not. A file
+// outside of the tree is opened only while it has the recorded content, so that nobody's picture can make the
+// program read a file that its maker did not know.
 
 #include "io/image_file.h"
 #include "io/scene_reader.h"
@@ -30,6 +30,9 @@ constexpr bool holds_state(ImageFormat format) {
 
 /// The texts for a picture that is to be written to `path`; none if they would be longer than readers take.
 ImageMetadata picture_state_texts(const PictureState& state, const std::string& path);
+
+/// Whether the PNG or EXR file holds a state; what reading it throws if it is damaged.
+bool holds_picture_state(const std::string& path);
 
 /// Reads the state of a PNG or EXR file. Warns of files that have changed since. Throws input_error for a
 /// picture that holds none, and whatever reading a scene does.
