@@ -124,7 +124,10 @@ TEST(RenderSession, EmissionEditRebuildsLights) {
   session.submit(d);
   ASSERT_TRUE(session.wait_finished(kPatience));
   d.scene.materials[0].emission = {0.5f, 0.5f, 0.5f};
-  d.scene.lights.push_back({"sun", LightType::point, {278, 273, 279}, {0, -1, 0}, {1e5f, 1e5f, 1e5f}, 1});
+  LightDesc bulb;
+  bulb.position = {278, 273, 279};
+  bulb.color = vec3(1e5f);
+  d.scene.lights.push_back(bulb);
   session.submit(d);
   ASSERT_TRUE(session.wait_finished(kPatience));
   EXPECT_TRUE(session.latest()->linear == headless(d));
