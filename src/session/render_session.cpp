@@ -90,7 +90,7 @@ struct RenderSession::State {
   bool converged = false; ///< adaptive sampling has stopped everywhere
   double noise = std::numeric_limits<double>::infinity(); ///< when stop.noise was asked last
   BuildQuality built = BuildQuality::high;                ///< of the scene's geometry
-  int published_spp = -1;                                 ///< of the last snapshot
+  std::uint64_t published_samples = 0; ///< camera paths in the last snapshot: spp may come to the same twice
   View published_view = View::radiance;
   double seconds_per_sample = 0; ///< of one pixel
   double publish_cost = 0;
@@ -145,7 +145,7 @@ void RenderSession::State::render_loop() {
       if (spp > 0 && published_view != current.settings.view) publish(true); // of the same samples
       active = !finished();
       const bool settled = !active || !goes_on();
-      if (settled && published_spp != spp) publish(true);
+      if (settled && published_samples != rays.samples) publish(true);
       feed_denoiser(settled);
       std::lock_guard lock(mutex);
       if (active)
@@ -256,7 +256,7 @@ void RenderSession::State::restart() {
   schedule.reset(size.width, size.height, 1); // the first pass is everywhere
   converged = false;
   noise = std::numeric_limits<double>::infinity();
-  published_spp = -1;
+  published_samples = 0;
   denoised_samples = 0;
   seconds_per_sample = 0;
 }
@@ -366,7 +366,7 @@ void RenderSession::State::publish(bool force) {
     snapshot->rays = rays;
     snapshot->render_seconds = render_seconds;
     snapshot->nonfinite = nonfinite;
-    published_spp = spp;
+    published_samples = rays.samples;
     published_view = snapshot->view;
     published_at = Clock::now();
     publish_cost = seconds_between(start, published_at);
