@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <span>
 
 namespace candela {
 
@@ -18,7 +19,7 @@ struct KeyHelp {
   const char* keys;
   const char* what;
 };
-constexpr KeyHelp kHelp[] = {
+constexpr KeyHelp kViewKeys[] = {
     {"W S, Up Down", "fly forward, back"},
     {"Q E, Left Right", "fly to the left, right"},
     {"Space X", "fly up, down"},
@@ -26,33 +27,46 @@ constexpr KeyHelp kHelp[] = {
     {"Insert Delete", "look up, down"},
     {"drag", "look around"},
     {"Shift", "four times as fast"},
-    {"middle drag, Alt+drag", "orbit; with Shift pan, with Ctrl zoom"},
+    {"middle drag, Alt+drag", "orbit; Shift pans, Ctrl zooms"},
     {"wheel", "zoom; while a key flies: its speed"},
-    {"number pad 1 3 7", "front, right, top; Ctrl: the other side"},
+    {"number pad 1 3 7", "front, right, top; Ctrl: other side"},
     {"number pad 5", "perspective or orthographic"},
-    {".", "frame the selection, or the scene"},
+    {"number pad .", "frame the selection, or the scene"},
     {"Home", "the view that the scene came with"},
-    {"click, Esc", "select what is there, nothing"},
-    {"F, Ctrl+click", "focus there"},
-    {"V, G, R, T", "select, move, rotate, scale; Ctrl snaps"},
-    {"M", "show or hide the lights and the selection"},
-    {"Ctrl+B, Ctrl+Alt+B", "render a region, all again"},
-    {"C, N, B", "compare two settings; how they are shown; flip"},
-    {"K, L", "pause or go on, one sample more"},
-    {"Ctrl+Z, Ctrl+Y", "undo, redo (or Ctrl+Shift+Z)"},
     {"1 to 9, Ctrl+1 to 9", "go to a bookmark, store one"},
-    {"I, H", "probe the pixel under the mouse, hold it"},
+    {"F, Ctrl+click", "focus there"},
     {"O", "show what is in focus"},
+    {"I, H", "probe the pixel at the mouse, hold it"},
+};
+constexpr KeyHelp kWorkKeys[] = {
+    {"click, Esc", "select what is there, nothing"},
+    {"V, G, R, T", "select, move, rotate, scale"},
+    {"Ctrl while dragging", "moves, rotates, scales in steps"},
+    {"M", "show or hide icons and outlines"},
+    {"Ctrl+Z, Ctrl+Y", "undo, redo (or Ctrl+Shift+Z)"},
+    {"Ctrl+B, Ctrl+Alt+B", "render a region, all again"},
+    {"K, L", "pause or go on, one sample more"},
+    {"C, N, B", "compare; change the layout; flip"},
+    {"F2", "the lab: Monte Carlo lessons"},
     {"Ctrl+S, Ctrl+Shift+S", "save the scene, under another name"},
     {"P", "save PNG and EXR under new names"},
+    {"drop a file", "open that scene or picture"},
     {"Tab", "hide or show all panels"},
     {"Ctrl + - 0", "larger, smaller, normal text"},
     {"Ctrl+click, double click", "type a value, reset it"},
-    {"drop a file", "open that scene"},
-    {"F2", "the lab: Monte Carlo lessons"},
     {"F1, Esc", "show or hide this help"},
     {"Ctrl+Q", "quit"},
 };
+
+void key_list(std::span<const KeyHelp> keys, float column) {
+  ImGui::BeginGroup();
+  for (const KeyHelp& line : keys) {
+    ImGui::TextUnformatted(line.keys);
+    ImGui::SameLine(column);
+    ImGui::TextDisabled("%s", line.what);
+  }
+  ImGui::EndGroup();
+}
 
 } // namespace
 
@@ -65,12 +79,11 @@ void help_overlay(Ui& ui, ViewerState& state, vec2 center, vec2 room) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * ui.scale());
   if (ImGui::Begin("##help", nullptr,
                    (kOverlay & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_AlwaysAutoResize)) {
-    const float column = 190 * ui.scale();
-    for (const KeyHelp& line : kHelp) {
-      ImGui::TextUnformatted(line.keys);
-      ImGui::SameLine(column);
-      ImGui::TextDisabled("%s", line.what);
-    }
+    // Two lists beside each other, so that all keys are seen at once in a window of 1280x720.
+    const float column = 165 * ui.scale();
+    key_list(kViewKeys, column);
+    if (room.x > 860 * ui.scale()) ImGui::SameLine(0, 20 * ui.scale());
+    key_list(kWorkKeys, column);
     ImGui::Dummy(ImVec2(0, 4 * ui.scale()));
     if (ui.button("help.close", "Close")) state.help_visible = false;
   }
