@@ -101,7 +101,7 @@ void histogram_plot(Ui& ui, ViewerState& state, const LogHistogram* histogram) {
   const float stops = shown.tone.exposure + exposure - state.picture->display.exposure;
   const float grey = std::log2(kMiddleGrey) - stops;
   const auto largest = static_cast<float>(largest_count(*histogram));
-  draw_channel(list, plot, *histogram, LogHistogram::luminance, grey, largest, IM_COL32(150, 150, 150, 150));
+  draw_channel(list, plot, *histogram, LogHistogram::gray, grey, largest, IM_COL32(150, 150, 150, 150));
   draw_channel(list, plot, *histogram, LogHistogram::red, grey, largest, IM_COL32(230, 60, 50, 90));
   draw_channel(list, plot, *histogram, LogHistogram::green, grey, largest, IM_COL32(60, 200, 70, 90));
   draw_channel(list, plot, *histogram, LogHistogram::blue, grey, largest, IM_COL32(70, 110, 255, 110));

@@ -49,14 +49,14 @@ LogHistogram log_histogram(std::span<const vec3> linear, std::span<const std::ui
       ++h.dark;
       continue;
     }
-    ++h.counts[LogHistogram::luminance][bin_of(l)];
+    ++h.counts[LogHistogram::gray][bin_of(l)];
     smallest = std::min(smallest, l);
     h.largest = std::max(h.largest, l);
   }
   // The mean of the logarithms by the bins' middles.
   double sum = 0, count = 0;
   for (std::size_t b = 0; b < LogHistogram::kBins; ++b) {
-    const double n = h.counts[LogHistogram::luminance][b];
+    const double n = h.counts[LogHistogram::gray][b];
     sum += n * (static_cast<double>(LogHistogram::bin_start(b)) + 0.5 / LogHistogram::kBinsPerStop);
     count += n;
   }

@@ -14,7 +14,7 @@ struct LogHistogram {
   static constexpr int kLowestStop = -32,
                        kHighestStop = 32; ///< log2 of the first bin's start, the last's end
   static constexpr std::size_t kBins = std::size_t{kHighestStop - kLowestStop} * kBinsPerStop;
-  enum Channel : std::size_t { red, green, blue, luminance, kChannels };
+  enum Channel : std::size_t { red, green, blue, gray, kChannels }; ///< gray: luminance
 
   /// What lies beyond the ends is in the first or last bin; zero, negative and non-finite values are in none.
   std::array<std::array<std::uint32_t, kBins>, kChannels> counts{};

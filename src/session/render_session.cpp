@@ -225,8 +225,7 @@ void RenderSession::State::apply_region() {
     if (scene && status.phase != SessionPhase::failed) status.phase = SessionPhase::rendering;
   }
   schedule.set_region(wanted);
-  converged = false;  // within another region
-  published_spp = -1; // as many samples may be another picture
+  converged = false; // within another region
   if (spp > 0) spp = static_cast<int>(schedule.samples());
 }
 

@@ -81,7 +81,7 @@ TEST(ViewerHistogramUi, CountsThePictureThatIsShown) {
   ASSERT_TRUE(hand.find("histogram.plot"));
   const LogHistogram& histogram = *inspect(hand).histogram;
   std::size_t counted = histogram.dark + histogram.nonfinite;
-  for (std::uint32_t n : histogram.counts[LogHistogram::luminance]) counted += n;
+  for (std::uint32_t n : histogram.counts[LogHistogram::gray]) counted += n;
   EXPECT_EQ(counted, 64u * 48u);
 
   // Brighter by two stops: more is clipped, but the light is the same.

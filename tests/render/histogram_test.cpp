@@ -26,7 +26,7 @@ TEST(Histogram, PutsEachValueIntoItsBin) {
     EXPECT_LE(LogHistogram::bin_start(bin), stop);
     EXPECT_GT(LogHistogram::bin_start(bin + 1), stop);
     EXPECT_EQ(total(h, LogHistogram::green), 0u);
-    EXPECT_EQ(total(h, LogHistogram::luminance), 1u);
+    EXPECT_EQ(total(h, LogHistogram::gray), 1u);
   }
 }
 
@@ -36,7 +36,7 @@ TEST(Histogram, CountsWhatHasNoLogarithmApart) {
   EXPECT_EQ(h.pixels, 7u);
   EXPECT_EQ(h.dark, 2u);
   EXPECT_EQ(h.nonfinite, 2u);
-  EXPECT_EQ(total(h, LogHistogram::luminance), 3u);
+  EXPECT_EQ(total(h, LogHistogram::gray), 3u);
   EXPECT_EQ(h.counts[LogHistogram::blue].front(), 1u) << "beyond the ends: the end bins";
   EXPECT_EQ(h.counts[LogHistogram::blue].back(), 1u);
 }
