@@ -116,7 +116,12 @@ TEST(EnvironmentMap, EveryMappingShowsTheSameWorld) {
       vec3 d = random_direction(i);
       if (m.mapping == angular && d.z > 0.999f) continue; // half a texel from the rim
       vec3 seen = map.radiance(d), is = vec3(smooth(d)) + d;
-      ASSERT_LT(glm::length(seen - is), 0.01f) << d.x << " " << d.y << " " << d.z << "; " << seed_note();
+      // Beyond the centres of a lat-long picture's last rows there is nothing to interpolate with: there it
+      // is off by up to half a row times the steepest slope, sqrt(3) 1.43 + 1.
+      float half_row = 0.5f * kPi / static_cast<float>(fine.size.y);
+      bool at_pole = m.mapping == latlong && std::acos(std::abs(d.y)) < half_row;
+      ASSERT_LT(glm::length(seen - is), at_pole ? 3.5f * half_row : 0.01f)
+          << d.x << " " << d.y << " " << d.z << "; " << seed_note();
     }
   }
 }
