@@ -1,0 +1,238 @@
+// The render thread: takes Documents, restarts what they change, adds samples.
+
+#include "core/error.h"
+#include "render/film_view.h"
+#include "session/session_state.h"
+
+#include <new>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace candela {
+
+void RenderSession::State::render_loop() {
+  // Rendering takes what the window leaves over. The OpenMP team is made by this thread and inherits its
+  // niceness.
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
+  bool active = false; // something to add samples to
+  while (true) {
+    {
+      std::unique_lock lock(mutex);
+      auto has_work = [&] { return quit || pending || region_changed || (active && may_go_on()); };
+      if (options.turns && (quit || !has_work())) options.turns->leave(options.side); // nobody waits for it
+      changed.wait(lock, has_work);
+      if (quit) return;
+    }
+    const SessionPhase before = status.phase;
+    try {
+      take_pending();
+      apply_region();
+      if (status.phase == SessionPhase::failed || scene == nullptr) {
+        active = false;
+        continue;
+      }
+      if (!finished() && goes_on()) step();
+      if (spp > 0 && published_view != current.settings.view) publish(true); // of the same samples
+      active = !finished();
+      const bool settled = !active || !goes_on();
+      if (settled && published_samples != rays.samples) publish(true);
+      feed_denoiser(settled);
+      std::lock_guard lock(mutex);
+      if (active)
+        status.phase = may_go_on() ? SessionPhase::rendering : SessionPhase::paused;
+      else if (!pending)
+        status.phase = SessionPhase::finished;
+    } catch (const Error& e) {
+      std::lock_guard lock(mutex);
+      status.phase = SessionPhase::failed;
+      status.error = e.what();
+      active = false;
+    } catch (const std::bad_alloc&) {
+      std::lock_guard lock(mutex);
+      status.phase = SessionPhase::failed;
+      status.error = "scene: out of memory: close other programs or make the scene or the film smaller";
+      active = false;
+    }
+    changed.notify_all();
+    const bool rests = !active || (status.phase == SessionPhase::paused && status.phase != before);
+    if (rests && options.on_publish) options.on_publish(); // the phase is news, too
+  }
+}
+
+/// Moves the newest Document into `current`, restarting what it must.
+bool RenderSession::State::take_pending() {
+  Invalidates worst;
+  {
+    std::lock_guard lock(mutex);
+    if (!pending) return false;
+    current = std::move(*pending);
+    pending.reset();
+    worst = pending_worst;
+    pending_worst = Invalidates::nothing;
+    stop = false;
+    status.generation = status.submitted;
+    bool restarts = worst >= Invalidates::image || status.phase == SessionPhase::failed;
+    if (restarts) {
+      worst = std::max(worst, Invalidates::image);
+      ++status.restarts;
+      status.first_image_ms = -1;
+      status.error.clear();
+      first_image_generation = accumulation = status.generation;
+      first_image_submitted = submitted_at;
+      status.spp = 0;
+      status.rays = {};
+      status.render_seconds = 0;
+      status.progress = 0;
+      status.nonfinite = 0;
+    }
+    status.phase = worst >= Invalidates::image ? SessionPhase::building : SessionPhase::rendering;
+  }
+  if (worst >= Invalidates::image) restart();
+  return true;
+}
+
+bool RenderSession::State::goes_on() const {
+  std::lock_guard lock(mutex);
+  return may_go_on();
+}
+
+/// Whether this pass is one that step() asked for.
+bool RenderSession::State::take_step() {
+  std::lock_guard lock(mutex);
+  if (steps_wanted == 0) return false;
+  --steps_wanted;
+  status.phase = SessionPhase::rendering;
+  return true;
+}
+
+void RenderSession::State::apply_region() {
+  CropWindow wanted;
+  {
+    std::lock_guard lock(mutex);
+    if (!region_changed) return;
+    region_changed = false;
+    wanted = region;
+    if (scene && status.phase != SessionPhase::failed) status.phase = SessionPhase::rendering;
+  }
+  schedule.set_region(wanted);
+  converged = false; // within another region
+  if (spp > 0) spp = static_cast<int>(schedule.samples());
+}
+
+void RenderSession::State::restart() {
+  // Materials and lights are made anew, which is quick; the geometry stays where the instances stay.
+  BuildQuality wanted;
+  {
+    std::lock_guard lock(mutex);
+    wanted = quality;
+  }
+  const bool too_coarse = built == BuildQuality::fast && wanted == BuildQuality::high;
+  const RenderScene* previous = scene ? scene.get() : options.geometry_of.get();
+  auto made = RenderScene::build(current, too_coarse ? nullptr : previous, wanted);
+  if (scene == nullptr || &made->geometry() != &scene->geometry()) built = wanted;
+  {
+    std::lock_guard lock(mutex);
+    scene = std::move(made);
+    scene_document = std::make_shared<const Document>(current);
+    status.phase = SessionPhase::rendering;
+  }
+  const FilmSettings& size = current.settings.film;
+  film = Film(size.width, size.height);
+  rays = {};
+  nonfinite = {};
+  render_seconds = 0;
+  level = 0;
+  spp = 0;
+  schedule.reset(size.width, size.height, 1); // the first pass is everywhere
+  converged = false;
+  noise = std::numeric_limits<double>::infinity();
+  published_samples = 0;
+  denoised_samples = 0;
+  seconds_per_sample = 0;
+}
+
+bool RenderSession::State::finished() const {
+  const StopSettings& until = current.settings.stop;
+  if (spp == 0) return false;
+  return converged || (until.noise > 0 && noise <= static_cast<double>(until.noise)) ||
+         (until.spp > 0 && spp >= until.spp) ||
+         (until.time > 0 && render_seconds >= static_cast<double>(until.time));
+}
+
+/// Renders a portion, when it is this session's turn.
+void RenderSession::State::step() {
+  std::shared_ptr<RenderTurns> turns;
+  int side = 0;
+  {
+    std::lock_guard lock(mutex);
+    turns = options.turns;
+    side = options.side;
+  }
+  if (!turns) {
+    render_portion(0);
+    return;
+  }
+  const double samples = spp > 0 ? spp : static_cast<double>(level) / std::size(kCoarseLevels);
+  // Like the pass itself, the turn of the coarsest image is never given up for a newer edit.
+  const auto turn = turns->begin(side, {samples, render_seconds}, level == 0 ? quitting : stop);
+  if (!turn.granted) return;
+  struct End { // also when memory runs out
+    RenderTurns& turns;
+    int side;
+    ~End() { turns.end(side); }
+  } end{*turns, side};
+  render_portion(turn.most_samples);
+}
+
+/// `most_samples` a pixel; 0: as many as are worth it.
+void RenderSession::State::render_portion(int most_samples) {
+  static const std::atomic<bool> kNeverStop{false};
+  PassOptions pass_options;
+  pass_options.threads = options.threads;
+  SampleRange range;
+  SampleSchedule::Job job;
+  bool coarse = level < std::size(kCoarseLevels);
+  if (coarse) {
+    range.lattice = kCoarseLevels[level];
+    range.skip_lattice = level > 0 ? kCoarseLevels[level - 1] : 0;
+  } else {
+    // Enough samples a pass to be worth its synchronisation, few enough to publish often.
+    job = schedule.next(1);
+    const double pixels = static_cast<double>(job.window.width) * job.window.height;
+    int portion = 1;
+    if (!take_step() && seconds_per_sample > 0)
+      portion = static_cast<int>(std::clamp(0.02 / (seconds_per_sample * pixels), 1.0, 64.0));
+    if (most_samples > 0) portion = std::min(portion, most_samples);
+    if (current.settings.stop.spp > 0) portion = std::min(portion, current.settings.stop.spp - spp);
+    if (current.settings.stop.noise > 0) portion = std::min(portion, next_noise_check(spp) - spp);
+    job = schedule.next(static_cast<std::uint32_t>(portion));
+    range.begin = job.begin;
+    range.end = job.end;
+    pass_options.crop = job.window;
+  }
+  auto start = Clock::now();
+  // The coarsest image is always finished: while an edit is dragged there is a picture of every moment.
+  PassResult pass = render_pass(*scene, current, range, film, level == 0 ? kNeverStop : stop, pass_options);
+  double taken = seconds_between(start, Clock::now());
+  render_seconds += taken;
+  rays += pass.rays;
+  nonfinite.count += pass.nonfinite.count;
+  for (const NonFiniteSample& s : pass.nonfinite.records)
+    if (nonfinite.records.size() < NonFiniteLog::kMaxRecords) nonfinite.records.push_back(s);
+  if (!pass.completed) return;
+  if (coarse) {
+    ++level;
+    if (level == std::size(kCoarseLevels)) spp = 1;
+    publish(true);
+  } else {
+    seconds_per_sample =
+        taken / (static_cast<double>(job.end - job.begin) * job.window.width * job.window.height);
+    schedule.done(job);
+    spp = static_cast<int>(schedule.samples());
+    converged = pass.converged && current.settings.adaptive.error > 0;
+    if (current.settings.stop.noise > 0 && is_noise_check(spp)) noise = std::sqrt(estimated_relmse(film));
+    publish(false);
+  }
+}
+
+} // namespace candela

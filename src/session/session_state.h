@@ -1,0 +1,115 @@
+#pragma once
+// The inside of RenderSession: what its threads share and what belongs to each. Only session/ includes this.
+
+#include "render/render_pass.h"
+#include "session/denoise_thread.h"
+#include "session/render_session.h"
+#include "session/sample_schedule.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace candela {
+
+using Clock = std::chrono::steady_clock;
+
+inline double seconds_between(Clock::time_point a, Clock::time_point b) {
+  return std::chrono::duration<double>(b - a).count();
+}
+
+/// Side of the blocks of the first pass; each is a multiple of the next, so the lattices nest.
+inline constexpr int kCoarseLevels[] = {8, 4, 2, 1};
+
+// Three threads: `renderer` turns Documents into Frames, `denoiser` turns snapshots of the film into
+// DenoisedImages, `presenter` turns either into DisplayImages. The mutex guards pointers and small values and
+// is never held while one of them works.
+struct RenderSession::State {
+  explicit State(SessionOptions o) : options(std::move(o)) {
+    renderer = std::jthread([this] { render_loop(); });
+    presenter = std::jthread([this] { present_loop(); });
+  }
+  ~State() {
+    {
+      std::lock_guard lock(mutex);
+      quit = true;
+      quitting = stop = true;
+    }
+    changed.notify_all();
+    if (options.turns) options.turns->wake();
+  }
+
+  SessionOptions options;
+  mutable std::mutex mutex;
+  mutable std::condition_variable changed;
+  bool quit = false;
+  std::atomic<bool> stop{false};     ///< the pass in flight is out of date
+  std::atomic<bool> quitting{false}; ///< `quit`, for who does not hold the mutex
+
+  // The mailbox.
+  std::optional<Document> pending;
+  Invalidates pending_worst = Invalidates::nothing; ///< over all that pending replaced
+  Document newest;                                  ///< last submitted
+  Clock::time_point submitted_at;                   ///< of the last one that restarts
+  BuildQuality quality = BuildQuality::high;        ///< of the newest
+  bool paused = false;
+  int steps_wanted = 0;
+  CropWindow region;
+  bool region_changed = false;
+
+  // What is shown.
+  SessionStatus status;
+  std::shared_ptr<const Frame> frame;
+  std::shared_ptr<const DisplayImage> picture;
+  std::uint64_t first_image_generation =
+      0; ///< of the accumulation whose first image is still awaited; 0: none
+  Clock::time_point first_image_submitted;  ///< when that was submitted
+  std::shared_ptr<const RenderScene> scene; ///< newest built, with its document, for picking
+  std::shared_ptr<const Document> scene_document;
+  std::shared_ptr<const DenoisedImage> denoised; ///< newest, of any accumulation
+
+  // The render thread's own.
+  Document current;
+  std::uint64_t accumulation = 0; ///< generation of the Document that restarted last
+  Film film;
+  RayCounts rays;
+  NonFiniteLog nonfinite;
+  double render_seconds = 0;
+  std::size_t level = 0; ///< next of kCoarseLevels
+  SampleSchedule schedule;
+  int spp = 0;            ///< complete passes over the film, or over the region
+  bool converged = false; ///< adaptive sampling has stopped everywhere
+  double noise = std::numeric_limits<double>::infinity(); ///< when stop.noise was asked last
+  BuildQuality built = BuildQuality::high;                ///< of the scene's geometry
+  std::uint64_t published_samples = 0; ///< camera paths in the last snapshot: spp may come to the same twice
+  View published_view = View::radiance;
+  double seconds_per_sample = 0; ///< of one pixel
+  double publish_cost = 0;
+  Clock::time_point published_at;
+  std::uint64_t denoised_samples = 0; ///< in the newest snapshot for the denoiser; 0: there is none
+
+  DenoiseThread denoiser{
+      options.threads, [this](std::shared_ptr<const DenoisedImage> made) { show_denoised(std::move(made)); }};
+  std::jthread renderer, presenter; // last: they are joined before the rest goes
+
+  void render_loop();
+  bool take_pending();
+  void restart();
+  void apply_region();
+  bool finished() const;
+  /// Paused, only steps are taken, and the first pass of an edit. The mutex must be held.
+  bool may_go_on() const { return !paused || steps_wanted > 0 || spp == 0; }
+  bool goes_on() const;
+  bool take_step();
+  void step();
+  void render_portion(int most_samples);
+  void publish(bool force);
+  void feed_denoiser(bool settled);
+  void show_denoised(std::shared_ptr<const DenoisedImage> made);
+  /// The denoised image that belongs to the newest frame, if it is to be shown. The mutex must be held.
+  std::shared_ptr<const DenoisedImage> denoised_to_show() const;
+  void present_loop();
+};
+
+} // namespace candela
