@@ -124,7 +124,8 @@ void CompareMode::begin(CompareState& state, const Edited& edited, EditState now
 void CompareMode::end(CompareState& state, const Edited& edited) {
   clear_reference();
   dispose(std::move(other_.session));
-  other_ = {};
+  other_.document = Document();
+  other_.history = EditHistory();
   edited.session->take_turns(nullptr, 0);
   turns_ = nullptr;
   difference_ = nullptr;

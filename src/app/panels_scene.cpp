@@ -139,6 +139,15 @@ void scenes_panel(Ui& ui, ViewerState& state) {
   ImGui::SameLine();
   if (ui.button("scene.save_as", "Save as", "Writes it under another name (Ctrl+Shift+S)", 1.2f * button))
     state.save_scene_requested = state.save_as_requested = true;
+  // What the scene's author says of it; a file may hold more than anybody wants to read here.
+  constexpr std::size_t kMostText = 2000;
+  const std::string text = state.document.scene.description.substr(0, kMostText);
+  if (!text.empty()) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextUnformatted(text.data(), text.data() + text.size());
+    ImGui::PopTextWrapPos();
+    ui.record("scene.description");
+  }
   if (!state.recent.empty()) {
     ImGui::TextDisabled("Recent");
     item_list(ui, "list.recent", state.recent.size(), -1, [&](std::size_t i) {

@@ -37,8 +37,10 @@ public:
       throw input_error(root.where(), "scene", "the key \"candela\" is missing",
                         "say \"candela\": 1, the version of the format, in the outermost object");
     read_integer(parts.at("candela"), "candela", 1, 1);
-    if (auto it = parts.find("description"); it != parts.end())
+    if (auto it = parts.find("description"); it != parts.end()) {
       expect(it->second, JsonType::string, "description");
+      document_.scene.description = it->second.string();
+    }
     // What is referred to comes first, whatever the order in the file.
     auto read = [&](const char* key, void (CandelaReader::*reader)(JsonValue)) {
       if (auto it = parts.find(key); it != parts.end()) (this->*reader)(it->second);

@@ -36,6 +36,8 @@ public:
       if (items.empty()) return;
       parts.push_back(fmt::format("  \"{}\": {}\n    {}\n  {}", key, open, joined(items, ",\n    "), close));
     };
+    if (!scene_.description.empty())
+      parts.push_back(fmt::format("  \"description\": {}", json_quoted(scene_.description)));
     add("camera", "{", json_camera_members(scene_.camera), "}");
     add("bookmarks", "[", json_bookmarks(scene_.bookmarks), "]");
     natural_textures_ = textures_are_natural();

@@ -166,9 +166,10 @@ Invalidates compare_documents(const Document& before, const Document& after) {
 
 bool same_content(const Document& a, const Document& b) {
   const SceneDesc &s = a.scene, &t = b.scene;
-  if (a.settings != b.settings || s.camera != t.camera || s.bookmarks != t.bookmarks ||
-      s.materials != t.materials || !std::ranges::equal(s.lights, t.lights, same_light) ||
-      s.instances.size() != t.instances.size() || s.textures.size() != t.textures.size())
+  if (a.settings != b.settings || s.description != t.description || s.camera != t.camera ||
+      s.bookmarks != t.bookmarks || s.materials != t.materials ||
+      !std::ranges::equal(s.lights, t.lights, same_light) || s.instances.size() != t.instances.size() ||
+      s.textures.size() != t.textures.size())
     return false;
   for (std::size_t i = 0; i < s.textures.size(); ++i)
     if (!same_value(s.textures[i], t.textures[i])) return false;

@@ -137,6 +137,7 @@ struct Bookmark {
 };
 
 struct SceneDesc {
+  std::string description; ///< for people: what there is to see, what to try
   Camera camera;
   std::vector<Bookmark> bookmarks;
   std::vector<Material> materials;

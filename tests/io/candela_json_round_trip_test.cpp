@@ -63,6 +63,12 @@ TEST_F(CandelaJsonRoundTrip, NothingIsNearlyNothing) {
   check(Document{});
 }
 
+TEST_F(CandelaJsonRoundTrip, TheDescriptionWithItsQuotesAndLines) {
+  Document d;
+  d.scene.description = "Try \"view\" = depth;\nand \\ more";
+  check(d);
+}
+
 TEST_F(CandelaJsonRoundTrip, BookmarksWithEveryRowOfTheirCameras) {
   std::mt19937 random(static_cast<std::mt19937::result_type>(test::fresh_seed()));
   SCOPED_TRACE(test::seed_note());
