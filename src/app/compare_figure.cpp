@@ -42,6 +42,11 @@ FigurePanel difference_panel(const ComparisonFigure& source, std::span<const vec
   return panel;
 }
 
+bool fits_reference(const ComparisonFigure& source, const DisplayImage& shown) {
+  return source.reference && shown.frame->width == source.reference->width &&
+         shown.frame->height == source.reference->height;
+}
+
 } // namespace
 
 std::string write_comparison_figure(const ComparisonFigure& source, const std::string& folder) {
@@ -55,14 +60,18 @@ std::string write_comparison_figure(const ComparisonFigure& source, const std::s
     panel.title = fmt::format("{}{}{}", side_letter(static_cast<int>(i)),
                               source.labels[i].empty() ? "" : ": ", source.labels[i]);
     panel.caption.push_back(fmt::format("{} spp, {:.2f} s", shown.frame->spp, shown.frame->render_seconds));
-    if (source.rel_mse[i]) panel.caption.push_back("relMSE " + plot_number(*source.rel_mse[i]));
+    if (fits_reference(source, shown))
+      panel.caption.push_back(
+          fmt::format("relMSE {}", plot_number(relative_mse(shown.frame->linear, source.reference->pixels))));
+    if (const auto noise = frame_noise(*shown.frame))
+      panel.caption.push_back(fmt::format("{} {}", kNoiseName, plot_number(*noise)));
     panel.picture = without_alpha(shown.rgba, shown.width, shown.height);
     figure.panels.push_back(std::move(panel));
   }
   const auto& [a, b] = source.pictures;
   const std::size_t side = source.difference == DifferenceOf::b_and_reference ? 1 : 0;
-  if (source.difference != DifferenceOf::a_and_b && source.reference && source.pictures[side] &&
-      source.pictures[side]->frame->linear.size() == source.reference->pixels.size()) {
+  if (source.difference != DifferenceOf::a_and_b && source.pictures[side] &&
+      fits_reference(source, *source.pictures[side])) {
     const Frame& frame = *source.pictures[side]->frame;
     figure.panels.push_back(difference_panel(
         source, frame.linear, source.reference->pixels,

@@ -2,8 +2,6 @@
 
 #include "core/error.h"
 #include "io/image_file.h"
-#include "render/compare.h"
-#include "render/difference.h"
 
 #include <fmt/format.h>
 
@@ -18,8 +16,6 @@ namespace {
 constexpr int kReferenceSeed = 0x5eed;
 /// An analysis begins no sooner after the last one than this, and takes no more than this share of a core.
 constexpr double kAnalysisInterval = 0.05, kAnalysisShare = 0.1;
-/// A point of the plot has so many times the samples of the one before.
-constexpr double kPointStep = 1.09;
 
 double now_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -66,39 +62,6 @@ std::string distinct_settings(const Document& document, const Document& other, s
   return out;
 }
 
-struct CompareMode::Analysis {
-  std::shared_ptr<const Frame> frames[2];
-  std::shared_ptr<const Image> reference;        ///< null: none that fits
-  std::optional<std::pair<int, int>> difference; ///< of which pictures: 0 A, 1 B, 2 the reference
-  bool with_sign = false;
-  float range = 0.1f;
-
-  std::optional<double> rel_mse[2];
-  std::shared_ptr<DisplayImage> picture;
-  double seconds = 0;
-
-  std::span<const vec3> pixels(int which) const {
-    return which < 2 ? std::span<const vec3>(frames[which]->linear)
-                     : std::span<const vec3>(reference->pixels);
-  }
-  void run();
-};
-
-void CompareMode::Analysis::run() {
-  const double began = now_seconds();
-  for (int i = 0; i < 2; ++i)
-    if (frames[i] && reference) rel_mse[i] = relative_mse(frames[i]->linear, reference->pixels);
-  if (difference) {
-    picture = std::make_shared<DisplayImage>();
-    const Frame& of = difference->first == 1 ? *frames[1] : *frames[0];
-    picture->frame = difference->first == 1 ? frames[1] : frames[0];
-    picture->width = of.width;
-    picture->height = of.height;
-    picture->rgba = difference_rgba8(pixels(difference->first), pixels(difference->second), with_sign, range);
-  }
-  seconds = now_seconds() - began;
-}
-
 CompareMode::CompareMode(Options options) : options_(std::move(options)), analyst_(options_.wake) {}
 
 void CompareMode::begin(CompareState& state, const Edited& edited, EditState now) {
@@ -114,8 +77,9 @@ void CompareMode::begin(CompareState& state, const Edited& edited, EditState now
   other_.history.reset(std::move(now));
   other_.session->submit(other_.document);
   paused_ = false;
-  tracks_ = {};
-  analysed_[0] = analysed_[1] = nullptr;
+  rel_mse_tracks_ = noise_tracks_ = {};
+  measured_ = {};
+  analysed_ = {};
   difference_ = nullptr;
   state.active = true;
   state.edited = 0;
@@ -129,7 +93,7 @@ void CompareMode::end(CompareState& state, const Edited& edited) {
   edited.session->take_turns(nullptr, 0);
   turns_ = nullptr;
   difference_ = nullptr;
-  analysed_[0] = analysed_[1] = nullptr;
+  analysed_ = {};
   state.active = false;
   state.plot = {};
 }
@@ -250,8 +214,8 @@ void CompareMode::load_reference(const std::string& path) {
 void CompareMode::clear_reference() {
   dispose(std::move(reference_session_));
   reference_.reset();
-  tracks_ = {};
-  rel_mse_ = {};
+  rel_mse_tracks_ = {};
+  for (Measured& measured : measured_) measured.rel_mse.reset();
 }
 
 std::string CompareMode::reference_problem(const Document& document) const {
@@ -282,7 +246,7 @@ void CompareMode::watch_reference(CompareState& state, const Edited& edited) {
       rendering_.image = std::make_shared<Image>(Image{frame->width, frame->height, frame->linear});
       dispose(std::move(reference_session_));
       reference_ = std::move(rendering_);
-      tracks_ = {};
+      rel_mse_tracks_ = {};
     }
     return;
   }
@@ -293,15 +257,17 @@ void CompareMode::watch_reference(CompareState& state, const Edited& edited) {
   const std::string problem = reference_problem(a);
   state.has_reference = problem.empty();
   state.reference = problem.empty() ? reference_->name : fmt::format("{}: {}", reference_->name, problem);
-  if (!problem.empty()) rel_mse_ = {};
+  if (!problem.empty())
+    for (Measured& measured : measured_) measured.rel_mse.reset();
 }
 
 // The numbers.
 
 void CompareMode::analyse(const CompareState& state, const Edited& edited) {
   if (analyses_ > 0 || now_seconds() < next_analysis_) return;
-  auto analysis = std::make_shared<Analysis>();
-  for (int i = 0; i < 2; ++i) analysis->frames[i] = current_frame(session(state, edited, i));
+  auto analysis = std::make_shared<CompareAnalysis>();
+  for (int i = 0; i < 2; ++i)
+    analysis->frames[static_cast<std::size_t>(i)] = current_frame(session(state, edited, i));
   if (state.has_reference) analysis->reference = reference_->image;
   auto fits = [&](const std::shared_ptr<const Frame>& frame) {
     return !analysis->reference ||
@@ -319,10 +285,9 @@ void CompareMode::analyse(const CompareState& state, const Edited& edited) {
     analysis->difference = {1, 2};
   analysis->with_sign = state.with_sign;
   analysis->range = state.range;
-  const bool is_new = a != analysed_[0] || b != analysed_[1] || key_ != key_of(state);
-  if (!is_new || (!analysis->reference && !analysis->difference)) return;
-  analysed_[0] = a;
-  analysed_[1] = b;
+  const bool is_new = analysis->frames != analysed_ || key_ != key_of(state);
+  if (!is_new) return;
+  analysed_ = analysis->frames;
   key_ = key_of(state);
   ++analyses_;
   analyst_.post([this, analysis]() -> TaskThread::Completion {
@@ -331,21 +296,18 @@ void CompareMode::analyse(const CompareState& state, const Edited& edited) {
   });
 }
 
-void CompareMode::take(const Analysis& analysis) {
+void CompareMode::take(const CompareAnalysis& analysis) {
   --analyses_;
   next_analysis_ = now_seconds() + std::max(kAnalysisInterval, analysis.seconds / kAnalysisShare);
   if (!other_.session) return; // the comparison is over
   if (analysis.picture) difference_ = analysis.picture;
   const bool same_reference = reference_ && analysis.reference == reference_->image;
-  for (std::size_t i = 0; i < 2 && same_reference; ++i) {
-    rel_mse_[i] = analysis.rel_mse[i];
-    if (!analysis.rel_mse[i]) continue;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!analysis.frames[i]) continue;
     const Frame& frame = *analysis.frames[i];
-    Track& track = tracks_[i];
-    if (track.generation != frame.generation) track = {frame.generation, {}};
-    const double samples = frame.spp;
-    if (track.points.empty() || samples >= kPointStep * track.points.back().samples)
-      track.points.push_back({samples, frame.render_seconds, *analysis.rel_mse[i]});
+    measured_[i] = {frame.generation, same_reference ? analysis.rel_mse[i] : std::nullopt, analysis.noise[i]};
+    if (measured_[i].rel_mse) rel_mse_tracks_[i].add(frame, *measured_[i].rel_mse);
+    if (measured_[i].noise) noise_tracks_[i].add(frame, *measured_[i].noise);
   }
 }
 
@@ -354,24 +316,13 @@ void CompareMode::describe(CompareState& state, const Edited& edited) const {
     CompareSide& side = state.sides[static_cast<std::size_t>(i)];
     side.status = session(state, edited, i).status();
     side.label = distinct_settings(document(state, edited, i), document(state, edited, 1 - i), 3);
-    side.rel_mse = state.has_reference ? rel_mse_[static_cast<std::size_t>(i)] : std::nullopt;
+    const Measured& measured = measured_[static_cast<std::size_t>(i)];
+    const bool is_current = measured.generation == side.status.generation;
+    side.rel_mse = is_current && state.has_reference ? measured.rel_mse : std::nullopt;
+    side.noise = is_current ? measured.noise : std::nullopt;
   }
-  state.plot = plot(state);
-}
-
-Plot CompareMode::plot(const CompareState& state) const {
-  Plot plot;
-  plot.x = {state.over_seconds ? "seconds" : "samples a pixel", true};
-  plot.y = {"relMSE", true};
-  for (int i = 0; i < 2; ++i) {
-    PlotSeries series{std::string(1, side_letter(i)), {}, false};
-    for (const Point& p : tracks_[static_cast<std::size_t>(i)].points)
-      series.points.push_back({state.over_seconds ? p.seconds : p.samples, p.rel_mse});
-    plot.series.push_back(std::move(series));
-  }
-  if (PlotSeries guide = inverse_guide(plot, state.over_seconds ? "1/t" : "1/N"); !guide.points.empty())
-    plot.series.push_back(std::move(guide));
-  return plot;
+  state.plot = error_plot(state.has_reference ? rel_mse_tracks_ : noise_tracks_, state.over_seconds,
+                          state.has_reference ? "relMSE" : kNoiseName);
 }
 
 void CompareMode::export_figure(const CompareState& state, const Edited& edited) {
@@ -380,7 +331,6 @@ void CompareMode::export_figure(const CompareState& state, const Edited& edited)
     const auto index = static_cast<std::size_t>(i);
     source.pictures[index] = session(state, edited, i).display();
     source.labels[index] = state.sides[index].label;
-    source.rel_mse[index] = state.sides[index].rel_mse;
   }
   if (state.has_reference) source.reference = reference_->image;
   source.difference = state.difference;

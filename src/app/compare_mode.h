@@ -3,7 +3,7 @@
 // one that is edited; this holds the other, and changes places with it when the other is to be edited. All
 // numbers are worked out on a thread of their own.
 
-#include "app/compare_state.h"
+#include "app/compare_analysis.h"
 #include "app/edit_history.h"
 #include "app/task_thread.h"
 #include "scene/document.h"
@@ -74,14 +74,10 @@ private:
     std::string name;
     std::optional<Camera> camera; ///< of what it shows; none: a file's, that nobody knows
   };
-  struct Point {
-    double samples = 0, seconds = 0, rel_mse = 0;
+  struct Measured {
+    std::uint64_t generation = 0; ///< of the frame that the numbers are of
+    std::optional<double> rel_mse, noise;
   };
-  struct Track { ///< the errors of one accumulation
-    std::uint64_t generation = 0;
-    std::vector<Point> points;
-  };
-  struct Analysis; ///< compare_mode.cpp
   struct Other {
     Document document;
     std::unique_ptr<RenderSession> session;
@@ -99,9 +95,8 @@ private:
   std::string reference_problem(const Document& document) const;
   void watch_reference(CompareState& state, const Edited& edited);
   void analyse(const CompareState& state, const Edited& edited);
-  void take(const Analysis& analysis);
+  void take(const CompareAnalysis& analysis);
   void describe(CompareState& state, const Edited& edited) const;
-  Plot plot(const CompareState& state) const;
 
   Options options_;
   std::shared_ptr<RenderTurns> turns_;
@@ -110,11 +105,11 @@ private:
   Reference rendering_;                              ///< what that will be
   std::optional<Reference> reference_;
   bool paused_ = false;
-  std::array<Track, 2> tracks_;
-  std::array<std::optional<double>, 2> rel_mse_;
+  std::array<ErrorTrack, 2> rel_mse_tracks_, noise_tracks_;
+  std::array<Measured, 2> measured_; ///< last
   std::shared_ptr<const DisplayImage> difference_;
-  std::shared_ptr<const Frame> analysed_[2]; ///< frames of the last analysis
-  int analyses_ = 0;                         ///< under way
+  std::array<std::shared_ptr<const Frame>, 2> analysed_; ///< frames of the last analysis
+  int analyses_ = 0;                                     ///< under way
   /// What an analysis is asked for beside its frames: a change of it is worth another one.
   using Key = std::tuple<CompareLayout, DifferenceOf, bool, float, std::shared_ptr<const Image>>;
   Key key_of(const CompareState& state) const {
@@ -133,7 +128,6 @@ struct ComparisonFigure {
   std::array<std::shared_ptr<const DisplayImage>, 2> pictures;
   std::shared_ptr<const Image> reference;
   std::array<std::string, 2> labels;
-  std::array<std::optional<double>, 2> rel_mse;
   DifferenceOf difference = DifferenceOf::a_and_b;
   bool with_sign = false;
   float range = 0.1f;

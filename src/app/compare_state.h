@@ -7,16 +7,21 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace candela {
 
 enum class CompareLayout : int { side_by_side, wipe, flip, difference };
 enum class DifferenceOf : int { a_and_b, a_and_reference, b_and_reference };
 
+/// What CompareSide::noise is called wherever it shows: no variance knows of a bias.
+inline constexpr std::string_view kNoiseName = "noise (est. relMSE)";
+
 struct CompareSide {
   SessionStatus status;
   std::string label;             ///< what it has that the other has not: "sampler.type=halton"
   std::optional<double> rel_mse; ///< against the reference
+  std::optional<double> noise;   ///< relMSE that the picture's own variance lets expect
 };
 
 struct CompareState {

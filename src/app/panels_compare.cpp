@@ -30,10 +30,40 @@ int index_of(const T (&values)[N], T value) {
   return found == std::end(values) ? 0 : static_cast<int>(found - std::begin(values));
 }
 
+std::string progress_text(const CompareSide& side) {
+  return fmt::format("{} spp, {:.1f} s", side.status.spp, side.status.render_seconds);
+}
+
+/// With the best that is known of the error.
 std::string side_text(const CompareSide& side) {
-  std::string text = fmt::format("{} spp, {:.1f} s", side.status.spp, side.status.render_seconds);
-  if (side.rel_mse) text += fmt::format(", relMSE {}", plot_number(*side.rel_mse));
-  return text;
+  if (side.rel_mse) return fmt::format("{}, relMSE {}", progress_text(side), plot_number(*side.rel_mse));
+  if (side.noise) return fmt::format("{}, {} {}", progress_text(side), kNoiseName, plot_number(*side.noise));
+  return progress_text(side);
+}
+
+void error_readout(Ui& ui, const CompareState& compare, std::optional<double> CompareSide::*error,
+                   const char* label, std::string_view tip) {
+  std::string text;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::optional<double> value = compare.sides[i].*error;
+    text += fmt::format("{}{} {}", i > 0 ? ", " : "", side_letter(static_cast<int>(i)),
+                        value ? plot_number(*value) : "-");
+  }
+  ui.readout(label, text, tip);
+}
+
+void error_readouts(Ui& ui, const CompareState& compare) {
+  if (compare.has_reference)
+    error_readout(ui, compare, &CompareSide::rel_mse, "relMSE",
+                  "The mean over pixels and channels of (x - r)^2 / (r^2 + 0.01), r being the reference: "
+                  "noise and bias");
+  error_readout(
+      ui, compare, &CompareSide::noise, kNoiseName.data(),
+      "The relMSE that each picture's own variance lets expect: the mean over pixels and channels "
+      "of variance / (mean^2 + 0.01).\nIt needs no reference, and therefore cannot see bias, such as "
+      "clamping's: relMSE can. Samplers that spread their samples well do better "
+      "than it says.");
+  ui.record("compare.noise");
 }
 
 void layout_widgets(Ui& ui, CompareState& compare) {
@@ -122,8 +152,9 @@ void compare_panel(Ui& ui, ViewerState& state) {
     compare.edit_requested = edited;
   for (int side = 0; side < 2; ++side) {
     const CompareSide& s = compare.sides[static_cast<std::size_t>(side)];
-    ui.readout(side == 0 ? "A" : "B", side_text(s), s.label.empty() ? "No setting is its own" : s.label);
+    ui.readout(side == 0 ? "A" : "B", progress_text(s), s.label.empty() ? "No setting is its own" : s.label);
   }
+  error_readouts(ui, compare);
   const float third = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) / 3);
   if (ui.button("compare.copy_a", "A to B", "B's settings become A's", third)) compare.copy_requested = 0;
   ImGui::SameLine(0, gap);
@@ -134,13 +165,11 @@ void compare_panel(Ui& ui, ViewerState& state) {
     compare.toggle_requested = true;
   layout_widgets(ui, compare);
   reference_widgets(ui, compare);
-  if (compare.has_reference) {
-    constexpr std::string_view kAxes[] = {"samples", "seconds"};
-    int axis = compare.over_seconds ? 1 : 0;
-    if (ui.choice("compare.axis", "over", axis, kAxes, "What the plot's horizontal axis counts"))
-      compare.over_seconds = axis == 1;
-    plot_widget(ui, "compare.plot", compare.plot, kPlotHeight);
-  }
+  constexpr std::string_view kAxes[] = {"samples", "seconds"};
+  int axis = compare.over_seconds ? 1 : 0;
+  if (ui.choice("compare.axis", "over", axis, kAxes, "What the plot's horizontal axis counts"))
+    compare.over_seconds = axis == 1;
+  plot_widget(ui, "compare.plot", compare.plot, kPlotHeight);
   if (ui.button("compare.export", "Save figure",
                 "Writes both pictures, their difference and the plot as one PNG, under a new name", -1))
     compare.export_requested = true;

@@ -12,9 +12,12 @@ namespace candela {
 
 namespace {
 
+/// What squares of differences are divided by in relMSE.
+double unit_of(float r) { return static_cast<double>(r) * static_cast<double>(r) + 0.01; }
+
 double squared_relative_error(float x, float r) {
   double d = static_cast<double>(x) - static_cast<double>(r);
-  return d * d / (static_cast<double>(r) * static_cast<double>(r) + 0.01);
+  return d * d / unit_of(r);
 }
 
 double encoded(float x) {
@@ -41,6 +44,12 @@ double relative_mse(std::span<const vec3> image, std::span<const vec3> reference
     for (int c = 0; c < 3; ++c) sum += squared_relative_error(image[i][c], reference[i][c]);
   }
   return sum / (3 * static_cast<double>(std::max<std::size_t>(finite, 1)));
+}
+
+double relative_variance(vec3 mean, vec3 variance_of_mean) {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) sum += static_cast<double>(variance_of_mean[c]) / unit_of(mean[c]);
+  return sum / 3;
 }
 
 ComparisonResult compare_images(const Image& image, const Image& reference) {

@@ -31,6 +31,10 @@ ComparisonResult compare_images(const Image& image, const Image& reference);
 /// ComparisonResult::rel_mse alone, without the cost of the rest. The sizes must be equal.
 double relative_mse(std::span<const vec3> image, std::span<const vec3> reference);
 
+/// A pixel's share of the relMSE that the variance of its mean lets expect, the mean standing in for the
+/// reference: mean over channels of variance / (mean^2 + 0.01).
+double relative_variance(vec3 mean, vec3 variance_of_mean);
+
 /// {"width": …, "relMSE": …, …}, indented by two spaces, without a final line break. JSON has no infinity:
 /// the PSNR of equal pictures is null, and so is a ratio to a black reference.
 std::string comparison_json(const ComparisonResult& result);

@@ -1,5 +1,7 @@
 #include "render/film.h"
 
+#include "render/compare.h"
+
 namespace candela {
 
 Film::Film(int width, int height)
@@ -25,11 +27,7 @@ vec3 Film::variance_of_mean(int x, int y) const {
 }
 
 double Film::relative_variance(int x, int y) const {
-  vec3 m = mean(x, y), v = variance_of_mean(x, y);
-  double sum = 0;
-  for (int c = 0; c < 3; ++c)
-    sum += static_cast<double>(v[c]) / (static_cast<double>(m[c]) * static_cast<double>(m[c]) + 0.01);
-  return sum / 3;
+  return candela::relative_variance(mean(x, y), variance_of_mean(x, y));
 }
 
 Image Film::image() const {

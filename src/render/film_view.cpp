@@ -1,6 +1,10 @@
 #include "render/film_view.h"
 
 #include "core/color.h"
+#include "render/compare.h"
+
+#include <cassert>
+#include <limits>
 
 namespace candela {
 
@@ -29,6 +33,21 @@ vec3 resolved_pixel(const Film& film, View view, int x, int y) {
 std::size_t pixel_count(const Film& film) {
   return static_cast<std::size_t>(film.width()) * static_cast<std::size_t>(film.height());
 }
+
+constexpr int kMeasurable = 2; ///< samples from which a variance is known
+
+/// Of values added in pixel order, so that it is the same for any number of threads.
+class MeasuredMean {
+public:
+  void add(double value) { sum_ += value, ++count_; }
+  double value() const {
+    return count_ > 0 ? sum_ / static_cast<double>(count_) : std::numeric_limits<double>::infinity();
+  }
+
+private:
+  double sum_ = 0;
+  std::size_t count_ = 0;
+};
 
 } // namespace
 
@@ -67,10 +86,20 @@ void resolve_statistics(const Film& film, std::vector<vec3>& variance_of_mean,
 }
 
 double estimated_relmse(const Film& film) {
-  double sum = 0; // in pixel order: the same for any number of threads
+  MeasuredMean mean;
   for (int y = 0; y < film.height(); ++y)
-    for (int x = 0; x < film.width(); ++x) sum += film.relative_variance(x, y);
-  return film.width() > 0 ? sum / static_cast<double>(pixel_count(film)) : 0;
+    for (int x = 0; x < film.width(); ++x)
+      if (film.count(x, y) >= kMeasurable) mean.add(film.relative_variance(x, y));
+  return mean.value();
+}
+
+double estimated_relmse(std::span<const vec3> mean, std::span<const vec3> variance_of_mean,
+                        std::span<const std::uint32_t> samples) {
+  assert(mean.size() == samples.size() && variance_of_mean.size() == samples.size());
+  MeasuredMean out;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (samples[i] >= std::uint32_t{kMeasurable}) out.add(relative_variance(mean[i], variance_of_mean[i]));
+  return out.value();
 }
 
 } // namespace candela

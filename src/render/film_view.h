@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace candela {
 
@@ -22,10 +25,14 @@ Image view_image(const Film& film, View view);
 void resolve_statistics(const Film& film, std::vector<vec3>& variance_of_mean,
                         std::vector<std::uint32_t>& samples);
 
-/// relMSE of the film against the image that it converges to, estimated from its own variance: the mean over
-/// pixels and channels of variance / (mean^2 + 0.01). Samplers that spread their samples well do better than
-/// their variance says.
+/// relMSE of the film against the image that it converges to, estimated from its own variance: the mean of
+/// relative_variance (compare.h) over the pixels of at least two samples; infinite where there are none, for
+/// then nothing is known. Samplers that spread their samples well do better than their variance says, and no
+/// variance knows of a bias.
 double estimated_relmse(const Film& film);
+/// The same of what resolve_view and resolve_statistics gave.
+double estimated_relmse(std::span<const vec3> mean, std::span<const vec3> variance_of_mean,
+                        std::span<const std::uint32_t> samples);
 
 /// stop.noise is asked only at these sample numbers, so that where a render stops does not depend on how its
 /// passes divide the samples: multiples of 8, and so far apart that asking costs little.

@@ -5,6 +5,7 @@
 #include "app/viewer.h"
 #include "io/image_file.h"
 #include "support/scratch_folder.h"
+#include "support/screenshots.h"
 
 #include <gtest/gtest.h>
 
@@ -169,14 +170,13 @@ public:
   std::vector<std::uint8_t> pixels() const { return context_.pixels(); }
   ivec2 size() const { return context_.size(); }
 
-  /// Leaves what is on the screen in screenshots/<name>.png of the tests' working folder.
+  /// Leaves what is on the screen in screenshots/<name>.png of the tests' build folder.
   void screenshot(const std::string& name) const {
-    std::filesystem::create_directories("screenshots");
     const std::vector<std::uint8_t> rgba = pixels();
     std::vector<std::uint8_t> rgb;
     for (std::size_t i = 0; i < rgba.size(); i += 4)
       rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
-    write_srgb8_image(size().x, size().y, rgb, "screenshots/" + name + ".png");
+    write_srgb8_image(size().x, size().y, rgb, screenshot_path(name + ".png"));
   }
 
   // The hand. Each step is shown in a frame of its own.

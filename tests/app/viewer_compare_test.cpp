@@ -5,6 +5,7 @@
 #include "io/texture_reader.h"
 #include "render/compare.h"
 #include "render/difference.h"
+#include "render/film_view.h"
 
 #include <fmt/format.h>
 
@@ -188,8 +189,7 @@ TEST(ViewerCompareUi, AReferenceGivesErrorsThatFall) {
   const auto figure = read_texture(folder / "candela-compare.png");
   EXPECT_GT(figure->width, 3 * 300);
   EXPECT_GT(figure->height, 500) << "pictures and the plot";
-  fs::create_directories("screenshots");
-  fs::copy_file(folder / "candela-compare.png", "screenshots/compare_export.png",
+  fs::copy_file(folder / "candela-compare.png", screenshot_path("compare_export.png"),
                 fs::copy_options::overwrite_existing);
 
   // Another view: the reference says nothing about it, until one comes back.
@@ -199,9 +199,57 @@ TEST(ViewerCompareUi, AReferenceGivesErrorsThatFall) {
   hand.frame(3);
   EXPECT_FALSE(compare(hand).has_reference);
   EXPECT_FALSE(compare(hand).sides[0].rel_mse.has_value());
+  EXPECT_EQ(compare(hand).plot.y.label, "noise (est. relMSE)");
   hand.key(Key::home);
   hand.frame(3);
   EXPECT_TRUE(compare(hand).has_reference);
+}
+
+TEST(ViewerCompareUi, NoiseIsEstimatedWithoutAReference) {
+  ScratchFolder folder;
+  ViewerHarness hand(noisy_document(0), {.screenshot_folder = folder.path()});
+  begin(hand);
+  hand.choose("path.light_sampling", "nee");
+  hand.wait_until("the plot has points", [&] {
+    const Plot& plot = compare(hand).plot;
+    return plot.series.size() == 3 && plot.series[1].points.size() >= 3 &&
+           plot.series[1].points.back().x >= 4 * plot.series[1].points.front().x;
+  });
+  EXPECT_EQ(compare(hand).plot.y.label, "noise (est. relMSE)");
+  const auto points = compare(hand).plot.series[1].points;
+  EXPECT_LT(points.back().y, points.front().y) << "the noise falls";
+  hand.key(Key::k);
+  auto is_measured = [&](int side, const RenderSession& session) {
+    const auto frame = session.latest();
+    return session.status().phase == SessionPhase::paused &&
+           compare(hand).sides[static_cast<std::size_t>(side)].noise ==
+               estimated_relmse(frame->linear, frame->variance, frame->samples);
+  };
+  hand.wait_until("the last pictures are measured", [&] {
+    return is_measured(1, hand.viewer.session()) && is_measured(0, *hand.viewer.comparison().other_session());
+  });
+  EXPECT_TRUE(hand.find("compare.noise"));
+  EXPECT_TRUE(hand.find("compare.plot"));
+  hand.click("panel.display"); // fold what is below
+  hand.reveal("panel.compare");
+  hand.frame(3);
+  hand.screenshot("1280x720_compare_noise");
+  hand.click("compare.export");
+  hand.wait_until("the figure is written", [&] { return fs::exists(folder / "candela-compare.png"); });
+  fs::copy_file(folder / "candela-compare.png", screenshot_path("compare_noise_export.png"),
+                fs::copy_options::overwrite_existing);
+
+  // A reference tells more.
+  hand.choose("compare.reference_spp", "64");
+  hand.key(Key::k);
+  hand.click("compare.render_reference");
+  hand.wait_until("the error is known", [&] { return compare(hand).sides[1].rel_mse.has_value(); });
+  EXPECT_EQ(compare(hand).plot.y.label, "relMSE");
+
+  // Other views have no noise to speak of.
+  hand.unfold("panel.display", "display.exposure");
+  hand.choose("view", "samples");
+  hand.wait_until("nothing is estimated", [&] { return !compare(hand).sides[1].noise; });
 }
 
 TEST(ViewerCompareUi, ReferencesComeFromFilesAndSides) {

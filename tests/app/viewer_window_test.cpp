@@ -339,7 +339,7 @@ TEST(ViewerScreenshotsUi, LeavesPicturesOfItself) {
     hand.move(hand.reveal("path.light_sampling"));
     hand.frame(2);
     hand.screenshot(name + "_tooltip");
-    EXPECT_TRUE(fs::exists("screenshots/" + name + "_tooltip.png"));
+    EXPECT_TRUE(fs::exists(screenshot_path(name + "_tooltip.png")));
   }
 }
 

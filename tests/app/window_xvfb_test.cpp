@@ -165,9 +165,9 @@ TEST_F(RealWindowUi, FliesSavesAndCloses) {
   EXPECT_GT(changed, before.pixels.size() / 4) << "the view turned";
 
   if (installed("import")) {
-    fs::create_directories("screenshots");
     const int saved = std::system(
-        fmt::format("DISPLAY={} import -window root screenshots/xvfb.png", server.display()).c_str());
+        fmt::format("DISPLAY={} import -window root '{}'", server.display(), screenshot_path("xvfb.png"))
+            .c_str());
     EXPECT_EQ(saved, 0);
   }
   server.xdotool("key ctrl+q");

@@ -105,11 +105,25 @@ TEST(NoiseStatistical, TheEstimateIsTheErrorAgainstAReference) {
   for (std::uint64_t i = 0; i < 100; ++i) {
     d.settings.sampler.seed = sampler_seed(i);
     Film film = render(d);
-    ratio.add(estimated_relmse(film) / compare_images(film.image(), reference).rel_mse);
+    const double estimate = estimated_relmse(film);
+    ratio.add(estimate / compare_images(film.image(), reference).rel_mse);
+    std::vector<vec3> variance;
+    std::vector<std::uint32_t> samples;
+    resolve_statistics(film, variance, samples);
+    EXPECT_EQ(estimated_relmse(film.image().pixels, variance, samples), estimate);
   }
   // The estimate divides by the noisy mean and the measure by the true one: some percent at 64 samples.
   EXPECT_GT(z_test(ratio, 1, 0.03), sidak_threshold(1)) << ratio.mean() << "; " << seed_note();
   EXPECT_LT(std::sqrt(ratio.variance_of_mean()), 0.03) << "too few renders to tell";
+}
+
+TEST(NoiseEstimate, KnowsOnlyPixelsOfTwoSamples) {
+  Film film(3, 1);
+  EXPECT_EQ(estimated_relmse(film), std::numeric_limits<double>::infinity());
+  film.add(0, 0, vec3(0));
+  film.add(0, 0, vec3(1)); // mean 0.5, variance of the mean 0.25
+  film.add(1, 0, vec3(1)); // it may be noise or not
+  EXPECT_FLOAT_EQ(static_cast<float>(estimated_relmse(film)), 0.25f / 0.26f);
 }
 
 TEST(NoiseChecks, AreFixedNumbersThatGrow) {

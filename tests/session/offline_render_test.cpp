@@ -64,5 +64,17 @@ TEST(OfflineRender, CropRendersNothingElse) {
   EXPECT_EQ(r.film.count(9, 20), 0);
 }
 
+TEST(OfflineRender, TheNoiseOfACropIsThatOfItsPixels) {
+  Document d = test::cornell_flush(64, 48, 8, true).document;
+  OfflineOptions options;
+  options.pass.crop = {10, 20, 17, 9};
+  const OfflineResult r = render_document(d, options);
+  double sum = 0;
+  for (int y = 20; y < 29; ++y)
+    for (int x = 10; x < 27; ++x) sum += r.film.relative_variance(x, y);
+  EXPECT_GT(sum, 0);
+  EXPECT_NEAR(r.noise, std::sqrt(sum / (17 * 9)), 1e-9);
+}
+
 } // namespace
 } // namespace candela
