@@ -1,9 +1,9 @@
 #include "app/figure.h"
 #include "io/image_file.h"
+#include "support/screenshots.h"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <random>
 
 namespace candela {
@@ -140,10 +140,9 @@ TEST(Figure, IsAPureFunction) {
                    b = draw_figure(everything(1), Typeface::installed());
   EXPECT_EQ(a.width, b.width);
   EXPECT_EQ(a.rgb, b.rgb);
-  std::filesystem::create_directories("screenshots");
-  write_srgb8_image(a.width, a.height, a.rgb, "screenshots/figure.png");
+  write_srgb8_image(a.width, a.height, a.rgb, test::screenshot_path("figure.png"));
   const RgbPicture large = draw_figure(everything(2), face);
-  write_srgb8_image(large.width, large.height, large.rgb, "screenshots/figure_2x.png");
+  write_srgb8_image(large.width, large.height, large.rgb, test::screenshot_path("figure_2x.png"));
 }
 
 TEST(Figure, AnEmptyOneIsABlankSheet) {
