@@ -1,0 +1,196 @@
+#include "versus_cycles/cycles.h"
+
+#include "core/error.h"
+#include "io/image_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <spawn.h>
+#include <sstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace candela::versus {
+
+namespace {
+
+using nlohmann::json;
+
+json to_json(vec3 v) { return {v.x, v.y, v.z}; }
+
+Error unknown(std::string_view element, std::string_view cause) {
+  return usage_error(element, cause, "teach write_cycles_scene and cycles_render.py");
+}
+
+json material_json(const Material& m) {
+  if (m.type != MaterialType::diffuse && m.type != MaterialType::ggx) throw unknown("material", "its type");
+  if (m.diffuse_texture >= 0 || m.opacity < 1) throw unknown("material", "its texture or opacity");
+  if (m.type == MaterialType::ggx && (m.specular != vec3(1) || m.emission != vec3(0)))
+    throw unknown("material", "a Fresnel term or emission of ggx");
+  return {{"type", m.type == MaterialType::ggx ? "ggx" : "diffuse"},
+          {"diffuse", to_json(m.diffuse)},
+          {"specular", to_json(m.specular)},
+          {"roughness", m.roughness},
+          {"emission", to_json(m.emission)}};
+}
+
+template <class T>
+void write_raw(const std::string& path, const std::vector<T>& values) {
+  std::ofstream out(path, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(values.data()),
+            static_cast<std::streamsize>(values.size() * sizeof(T)));
+  if (!out.flush()) throw output_error(path, "it cannot be written", "free some space");
+}
+
+json mesh_json(Mesh mesh, const mat4& world_from_object, int material, const std::string& folder,
+               std::size_t index) {
+  if (!mesh.normals.empty()) throw unknown("mesh", "its normals");
+  for (vec3& p : mesh.positions) p = vec3(world_from_object * vec4(p, 1));
+  std::string vertices = fmt::format("{}.vertices", index), triangles = fmt::format("{}.triangles", index);
+  write_raw(folder + "/" + vertices, mesh.positions);
+  write_raw(folder + "/" + triangles, mesh.triangles);
+  return {{"vertices", vertices}, {"triangles", triangles}, {"material", material}};
+}
+
+} // namespace
+
+std::optional<std::string> find_blender() {
+  const char* variable = std::getenv("PATH");
+  std::istringstream folders(variable != nullptr ? variable : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (std::string path = folder + "/blender"; ::access(path.c_str(), X_OK) == 0) return path;
+  return std::nullopt;
+}
+
+void write_cycles_scene(const Document& document, const std::string& folder) {
+  const SceneDesc& scene = document.scene;
+  const Camera& camera = scene.camera;
+  if (camera.projection != Projection::perspective || camera.aperture_radius > 0)
+    throw unknown("camera", "it is no pinhole");
+  json out;
+  out["width"] = document.settings.film.width;
+  out["height"] = document.settings.film.height;
+  out["camera"] = {{"position", to_json(camera.position)},
+                   {"target", to_json(camera.target)},
+                   {"up", to_json(camera.up)},
+                   {"vertical_fov", camera.vertical_fov}};
+  for (const Material& m : scene.materials) out["materials"].push_back(material_json(m));
+  out["meshes"] = out["rectangle_lamps"] = out["ball_lamps"] = json::array();
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const mat4& m = instance.world_from_object;
+    int index = instance.materials.at(0);
+    vec3 emission = scene.materials.at(static_cast<std::size_t>(index)).emission;
+    if (auto mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
+      if (emission != vec3(0)) throw unknown("instance", "a mesh that shines");
+      out["meshes"].push_back(mesh_json(**mesh, m, index, folder, i));
+    } else if (std::holds_alternative<RectangleShape>(instance.shape)) {
+      Mesh quad;
+      quad.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+      quad.triangles = {{0, 1, 2}, {0, 2, 3}};
+      out["meshes"].push_back(mesh_json(std::move(quad), m, index, folder, i));
+      if (emission != vec3(0))
+        out["rectangle_lamps"].push_back({{"center", to_json(vec3(m[3]))},
+                                          {"x", to_json(vec3(m[0]))},
+                                          {"y", to_json(vec3(m[1]))},
+                                          {"radiance", to_json(emission)}});
+    } else if (auto sphere = std::get_if<SphereShape>(&instance.shape);
+               sphere != nullptr && emission != vec3(0)) {
+      out["ball_lamps"].push_back({{"center", to_json(vec3(m[3]))},
+                                   {"radius", sphere->radius * glm::length(vec3(m[0]))},
+                                   {"radiance", to_json(emission)}});
+    } else {
+      throw unknown("instance", "its shape");
+    }
+  }
+  for (const LightDesc& light : scene.lights) {
+    if (light.type != LightType::environment || light.panorama == nullptr || out.contains("panorama") ||
+        light.rotation != 0 || light.scale * light.color != vec3(1) || light.up != vec3(0, 1, 0))
+      throw unknown("light", "anything but one panorama as it is");
+    write_linear_image(light.panorama->image, folder + "/panorama.exr");
+    out["panorama"] = "panorama.exr";
+  }
+  std::ofstream file(folder + "/scene.json");
+  file << out.dump(1) << '\n';
+  if (!file.flush()) throw output_error(folder + "/scene.json", "it cannot be written", "free some space");
+}
+
+Cycles::Cycles(const std::string& blender, const std::string& folder, int threads,
+               const std::vector<std::string>& settings)
+    : log_(folder + "/blender.log") {
+  std::signal(SIGPIPE, SIG_IGN); // a blender that ended early shows in its silence
+  int in[2], out[2];
+  if (::pipe2(in, O_CLOEXEC) != 0 || ::pipe2(out, O_CLOEXEC) != 0)
+    throw Error(ExitCode::limit, "versus_cycles: no pipe to blender: too many open files: close some");
+  to_ = ::fdopen(in[1], "w");
+  from_ = ::fdopen(out[0], "r");
+  std::vector<std::string> words = {blender,
+                                    "-b",
+                                    "--factory-startup",
+                                    "-noaudio",
+                                    "-t",
+                                    std::to_string(threads),
+                                    "--python-exit-code",
+                                    "1",
+                                    "--python",
+                                    VERSUS_CYCLES_SCRIPT,
+                                    "--",
+                                    folder};
+  words.insert(words.end(), settings.begin(), settings.end());
+  std::vector<char*> arguments;
+  for (std::string& w : words) arguments.push_back(w.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_adddup2(&actions, in[0], 0);
+  ::posix_spawn_file_actions_adddup2(&actions, out[1], 1);
+  ::posix_spawn_file_actions_addopen(&actions, 2, (log_ + ".errors").c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                     0644);
+  int failed = ::posix_spawn(&process_, blender.c_str(), &actions, nullptr, arguments.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  ::close(in[0]);
+  ::close(out[1]);
+  if (failed != 0)
+    throw Error(ExitCode::limit, fmt::format("{}: it cannot be started (error {})", blender, failed));
+  version_ = answer("versus_cycles ready ");
+}
+
+Cycles::~Cycles() {
+  std::fclose(to_);
+  std::fclose(from_);
+  if (process_ > 0) ::waitpid(process_, nullptr, 0);
+}
+
+double Cycles::render(int seed, int spp, const std::string& exr) {
+  fmt::print(to_, "{} {} {}\n", seed, spp, exr);
+  std::fflush(to_);
+  return std::stod(answer("versus_cycles rendered "));
+}
+
+std::string Cycles::answer(std::string_view word) {
+  std::ofstream log(log_, std::ios::app);
+  std::string line;
+  for (int c; (c = std::fgetc(from_)) != EOF;) {
+    if (c != '\n') {
+      line.push_back(static_cast<char>(c));
+      continue;
+    }
+    if (line.starts_with(word)) return line.substr(word.size());
+    log << line << std::endl;
+    line.clear();
+  }
+  throw Error(ExitCode::bad_input,
+              fmt::format("{}: blender ended early: it says why there (and in {}.errors): "
+                          "--keep keeps the folder",
+                          log_, log_));
+}
+
+} // namespace candela::versus
