@@ -144,7 +144,7 @@ void status_line(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
     if (state.picture && state.picture->denoised)
       talk += "    " + denoised_text(*state.picture->denoised);
     else if (state.document.settings.display.denoise && state.document.settings.view == View::radiance)
-      talk += "    denoising …";
+      talk += "    " + (status.denoise_error.empty() ? "denoising …" : status.denoise_error);
     cell(talk, 0);
     const char* keys = "F1 help    Tab panels";
     const float width = ImGui::CalcTextSize(keys).x;

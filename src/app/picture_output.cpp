@@ -1,5 +1,6 @@
 #include "app/picture_output.h"
 
+#include "render/denoise_film.h"
 #include "render/display_transform.h"
 
 #include <fmt/format.h>
@@ -24,7 +25,8 @@ Image cropped(Image image, const CropWindow& crop) {
 
 ImageMetadata picture_metadata(int spp, bool denoised) {
   ImageMetadata metadata{{"candela.version", CANDELA_VERSION}, {"candela.spp", std::to_string(spp)}};
-  if (denoised) metadata["candela.denoised"] = fmt::format("of {} samples a pixel", spp);
+  if (denoised)
+    metadata["candela.denoised"] = fmt::format("of {} samples a pixel, by {}", spp, denoiser_name());
   return metadata;
 }
 

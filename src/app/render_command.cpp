@@ -8,6 +8,7 @@
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "render/compare.h"
+#include "render/denoise_film.h"
 #include "render/film_view.h"
 #include "session/offline_render.h"
 
@@ -107,7 +108,10 @@ nlohmann::ordered_json stats_json(const Document& document, const OfflineResult&
   j["build_s"] = result.build_seconds;
   j["render_s"] = result.render_seconds;
   j["denoised"] = denoise_seconds.has_value();
-  if (denoise_seconds) j["denoise_s"] = *denoise_seconds;
+  if (denoise_seconds) {
+    j["denoiser"] = denoiser_name();
+    j["denoise_s"] = *denoise_seconds;
+  }
   j["width"] = image.width;
   j["height"] = image.height;
   j["spp"] = result.spp;

@@ -47,7 +47,9 @@ std::string scene_title(const ViewerState& state) {
   return std::filesystem::path(state.scene_path).filename().string();
 }
 
-std::string denoised_text(const DenoisedImage& image) { return fmt::format("denoised ({} spp)", image.spp); }
+std::string denoised_text(const DenoisedImage& image) {
+  return fmt::format("denoised ({} spp, {})", image.spp, denoiser_name());
+}
 
 Viewer::Viewer(const Gl& gl, ViewerOptions options)
     : gl_(gl), options_(std::move(options)), draw_(gl), viewport_(gl), other_viewport_(gl),

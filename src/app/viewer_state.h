@@ -106,7 +106,7 @@ struct ViewerState {
   bool frame_requested = false; ///< the selection, or the scene, into the picture
 };
 
-/// "denoised (16 spp)".
+/// "denoised (16 spp, NFOR)".
 std::string denoised_text(const DenoisedImage& image);
 
 /// Name of the scene's file without its folder, or "Cornell box" for the built-in one.

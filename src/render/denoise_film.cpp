@@ -1,5 +1,9 @@
 #include "render/denoise_film.h"
 
+#ifdef CANDELA_OIDN
+#include "render/oidn_denoiser.h"
+#endif
+
 namespace candela {
 
 namespace {
@@ -31,7 +35,19 @@ std::optional<Image> denoise_render(NoisyImage color, int spp, const RenderScene
   const auto wanted = static_cast<std::uint32_t>(std::clamp(spp, 2, kFeatureSamples));
   if (!render_features(scene, document, wanted, features, stop, options.threads)) return std::nullopt;
   features.resolve(input.albedo, input.normal, input.position);
+#ifdef CANDELA_OIDN
+  return oidn_denoise(input, options);
+#else
   return denoise(input, options);
+#endif
+}
+
+std::string_view denoiser_name() {
+#ifdef CANDELA_OIDN
+  return oidn_name();
+#else
+  return "NFOR";
+#endif
 }
 
 } // namespace candela

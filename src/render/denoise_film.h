@@ -5,6 +5,8 @@
 #include "render/feature_film.h"
 #include "render/film.h"
 
+#include <string_view>
+
 namespace candela {
 
 /// The film's means in halves. A pixel of one sample has that in both, and a variance to match.
@@ -16,5 +18,9 @@ NoisyImage noisy_image(const Film& film);
 std::optional<Image> denoise_render(NoisyImage color, int spp, const RenderScene& scene,
                                     const Document& document, FeatureFilm& features,
                                     const DenoiseOptions& options = {});
+
+/// What denoise_render works with, as it is to be named beside its pictures: "OIDN 2.3.1" (oidn_denoiser.h)
+/// where the program is built with that, else "NFOR", after the paper of denoise().
+std::string_view denoiser_name();
 
 } // namespace candela

@@ -1,5 +1,7 @@
 #include "session/denoise_thread.h"
 
+#include "core/error.h"
+
 #include <new>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -14,8 +16,8 @@ constexpr int kNiceness = 12;
 
 } // namespace
 
-DenoiseThread::DenoiseThread(int threads, std::function<void(std::shared_ptr<const DenoisedImage>)> done)
-    : threads_(threads), done_(std::move(done)), thread_([this] { run(); }) {}
+DenoiseThread::DenoiseThread(int threads, Done done, Failed failed)
+    : threads_(threads), done_(std::move(done)), failed_(std::move(failed)), thread_([this] { run(); }) {}
 
 DenoiseThread::~DenoiseThread() {
   {
@@ -78,6 +80,9 @@ void DenoiseThread::run() {
     } catch (const std::bad_alloc&) { // the noisy picture stays, which is what there is memory for
       features = FeatureFilm();
       features_of = 0;
+      failed_("not denoised: out of memory");
+    } catch (const Error& e) { // Open Image Denoise's
+      failed_(e.what());
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <thread>
 
 namespace candela {
@@ -31,8 +32,12 @@ struct DenoisedImage {
 
 class DenoiseThread {
 public:
-  /// `done` is called from the thread with every image that was not cancelled.
-  DenoiseThread(int threads, std::function<void(std::shared_ptr<const DenoisedImage>)> done);
+  using Done = std::function<void(std::shared_ptr<const DenoisedImage>)>;
+  using Failed = std::function<void(std::string why)>;
+
+  /// Called from the thread: `done` with every image that was not cancelled, `failed` where there will be
+  /// none.
+  DenoiseThread(int threads, Done done, Failed failed);
   ~DenoiseThread(); ///< cancels and joins
   DenoiseThread(const DenoiseThread&) = delete;
   DenoiseThread& operator=(const DenoiseThread&) = delete;
@@ -48,7 +53,8 @@ private:
   void run();
 
   int threads_;
-  std::function<void(std::shared_ptr<const DenoisedImage>)> done_;
+  Done done_;
+  Failed failed_;
   std::mutex mutex_; // held for moves of pointers only
   std::condition_variable posted_;
   std::unique_ptr<DenoiseJob> waiting_;

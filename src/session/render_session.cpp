@@ -26,6 +26,7 @@ std::uint64_t RenderSession::submit(Document document, BuildQuality quality) {
       s.submitted_at = Clock::now();
       s.stop = true;
       dropped = s.denoiser.cancel();
+      s.status.denoise_error.clear();
     }
     generation = ++s.status.submitted;
   }
@@ -116,7 +117,8 @@ bool RenderSession::wait_finished(double seconds) const {
     if (!still || !s.picture || s.picture->frame != s.frame ||
         s.picture->display != s.newest.settings.display)
       return false;
-    if (!s.newest.settings.display.denoise || s.frame->view != View::radiance || s.frame->spp < 2)
+    if (!s.newest.settings.display.denoise || s.frame->view != View::radiance || s.frame->spp < 2 ||
+        !s.status.denoise_error.empty())
       return true;
     return s.picture->denoised && s.picture->denoised->accumulation == s.frame->generation &&
            s.picture->denoised->samples == s.status.rays.samples;

@@ -32,6 +32,7 @@ struct SessionStatus {
   double progress = 0; ///< 0..1 towards the nearest stopping criterion; 0 where there is none
   std::uint64_t nonfinite = 0; ///< NaN or infinite samples of this accumulation
   std::string error;           ///< why phase is failed
+  std::string denoise_error;   ///< why the last attempt to denoise this accumulation made no picture
 };
 
 /// A tone-mapped picture, ready for glTexImage2D as RGBA8.

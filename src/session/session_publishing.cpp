@@ -75,8 +75,18 @@ void RenderSession::State::show_denoised(std::shared_ptr<const DenoisedImage> ma
   {
     std::lock_guard lock(mutex);
     denoised = std::move(made);
+    status.denoise_error.clear();
   }
   changed.notify_all();
+}
+
+void RenderSession::State::show_denoise_error(std::string why) {
+  {
+    std::lock_guard lock(mutex);
+    status.denoise_error = std::move(why);
+  }
+  changed.notify_all();
+  if (options.on_publish) options.on_publish();
 }
 
 std::shared_ptr<const DenoisedImage> RenderSession::State::denoised_to_show() const {

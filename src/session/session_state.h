@@ -90,7 +90,8 @@ struct RenderSession::State {
   std::uint64_t denoised_samples = 0; ///< in the newest snapshot for the denoiser; 0: there is none
 
   DenoiseThread denoiser{
-      options.threads, [this](std::shared_ptr<const DenoisedImage> made) { show_denoised(std::move(made)); }};
+      options.threads, [this](std::shared_ptr<const DenoisedImage> made) { show_denoised(std::move(made)); },
+      [this](std::string why) { show_denoise_error(std::move(why)); }};
   std::jthread renderer, presenter; // last: they are joined before the rest goes
 
   void render_loop();
@@ -107,6 +108,7 @@ struct RenderSession::State {
   void publish(bool force);
   void feed_denoiser(bool settled);
   void show_denoised(std::shared_ptr<const DenoisedImage> made);
+  void show_denoise_error(std::string why);
   /// The denoised image that belongs to the newest frame, if it is to be shown. The mutex must be held.
   std::shared_ptr<const DenoisedImage> denoised_to_show() const;
   void present_loop();

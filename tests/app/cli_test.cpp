@@ -188,8 +188,12 @@ TEST_F(CliTest, DenoisesAndSaysSo) {
   auto errors = nlohmann::json::parse(o.out);
   EXPECT_LT(errors["relMSE"], errors["noisy"]["relMSE"]);
   EXPECT_EQ(nlohmann::json::parse(file_text(path("s.json")))["denoised"], true);
-  for (const char* name : {"a.exr", "a.png"})
-    EXPECT_NE(file_text(path(name)).find("candela.denoised"), std::string::npos) << name;
+  const std::string denoiser = nlohmann::json::parse(file_text(path("s.json")))["denoiser"];
+  for (const char* name : {"a.exr", "a.png"}) {
+    const std::string bytes = file_text(path(name));
+    EXPECT_NE(bytes.find("candela.denoised"), std::string::npos) << name;
+    EXPECT_NE(bytes.find("of 8 samples a pixel, by " + denoiser), std::string::npos) << name;
+  }
   ASSERT_EQ(run(clean + "--spp 8 --threads 3 --seed 3 -o b.exr").code, 0);
   EXPECT_TRUE(read_image(path("b.exr")) == read_image(path("a.exr"))) << "for any number of threads";
   Outcome one = run(clean + "--spp 1 -o c.exr");
