@@ -1,7 +1,7 @@
 #include "app/compare_command.h"
-#include "core/error.h"
 #include "io/image_file.h"
 #include "io/texture_reader.h"
+#include "support/exit_code.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
@@ -11,18 +11,11 @@ namespace candela {
 namespace {
 
 using nlohmann::json;
+using test::code_of;
 using test::ScratchFolder;
 
 Image uniform(int width, int height, float value) {
   return {width, height, std::vector<vec3>(static_cast<std::size_t>(width * height), vec3(value))};
-}
-
-template <class Action>
-ExitCode code_of(Action action) {
-  try {
-    action();
-  } catch (const Error& error) { return error.code(); }
-  return ExitCode::done;
 }
 
 TEST(CompareCommand, PrintsTheMeasuresAsJson) {

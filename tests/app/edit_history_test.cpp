@@ -22,17 +22,23 @@ EditState fresh() {
   return state;
 }
 
-TEST(EditHistory, StepsThereAndBack) {
+struct History : ::testing::Test {
   EditHistory history;
   EditState state = fresh();
-  history.reset(state);
+
+  History() { history.reset(state); }
+  /// The panels have made it of the state, at once.
+  void observe() { history.observe(state, true, false); }
+};
+
+TEST_F(History, StepsThereAndBack) {
   EXPECT_FALSE(history.can_undo());
   const Document first = state.document;
   state.document.settings.path.max_depth = 5;
-  history.observe(state, true, false);
+  observe();
   EXPECT_EQ(history.undo_name(), "path.max_depth");
   state.document.scene.materials[0].roughness = 0.7f;
-  history.observe(state, true, false);
+  observe();
   EXPECT_EQ(history.undo_name(), "red: roughness");
   const Document last = state.document;
   history.undo();
@@ -44,10 +50,7 @@ TEST(EditHistory, StepsThereAndBack) {
   EXPECT_FALSE(history.can_redo());
 }
 
-TEST(EditHistory, AGestureIsOneStep) {
-  EditHistory history;
-  EditState state = fresh();
-  history.reset(state);
+TEST_F(History, AGestureIsOneStep) {
   const Document first = state.document;
   for (int i = 1; i <= 20; ++i) {
     state.document.scene.camera.position.x = static_cast<float>(i);
@@ -61,49 +64,39 @@ TEST(EditHistory, AGestureIsOneStep) {
   EXPECT_FALSE(history.can_undo());
 }
 
-TEST(EditHistory, AGestureThatEndsWhereItBeganIsNone) {
-  EditHistory history;
-  EditState state = fresh();
-  history.reset(state);
+TEST_F(History, AGestureThatEndsWhereItBeganIsNone) {
   state.document.settings.display.exposure = 3;
   history.observe(state, true, true);
   state.document.settings.display.exposure = 0;
-  history.observe(state, true, false);
+  observe();
   EXPECT_FALSE(history.can_undo());
 }
 
-TEST(EditHistory, ANewEditDropsWhatWasUndone) {
-  EditHistory history;
-  EditState state = fresh();
-  history.reset(state);
+TEST_F(History, ANewEditDropsWhatWasUndone) {
   for (int seed : {1, 2, 3}) {
     state.document.settings.sampler.seed = seed;
-    history.observe(state, true, false);
+    observe();
   }
   history.undo();
   state.document = history.undo().document;
   state.document.settings.sampler.seed = 9;
-  history.observe(state, true, false);
+  observe();
   EXPECT_FALSE(history.can_redo());
   EXPECT_EQ(history.undo().document.settings.sampler.seed, 1);
 }
 
-TEST(EditHistory, TheWindowsSizeIsNoEdit) {
-  EditHistory history;
-  EditState state = fresh();
-  history.reset(state);
+TEST_F(History, TheWindowsSizeIsNoEdit) {
   state.document.settings.film.width = 1234;
-  history.observe(state, true, false);
+  observe();
   EXPECT_FALSE(history.can_undo());
   EXPECT_FALSE(differs_from_file(state.document, fresh().document, true));
   state.fit_film = false;
-  history.observe(state, true, false);
+  observe();
   EXPECT_TRUE(history.can_undo()) << "a size of one's own is";
   EXPECT_TRUE(differs_from_file(state.document, fresh().document, false));
 }
 
-TEST(EditHistory, LookingAroundIsNotWorthAFile) {
-  EditState state = fresh();
+TEST_F(History, LookingAroundIsNotWorthAFile) {
   const Document saved = state.document;
   state.document.scene.camera.position.x = 9;
   EXPECT_FALSE(differs_from_file(state.document, saved, true));
@@ -111,7 +104,7 @@ TEST(EditHistory, LookingAroundIsNotWorthAFile) {
   EXPECT_TRUE(differs_from_file(state.document, saved, true));
 }
 
-TEST(EditHistory, NamesSayWhatWasEdited) {
+TEST_F(History, NamesSayWhatWasEdited) {
   const EditState before = fresh();
   auto name = [&](auto edit) {
     EditState after = before;
@@ -136,13 +129,10 @@ TEST(EditHistory, NamesSayWhatWasEdited) {
             "Open box.json");
 }
 
-TEST(EditHistory, IsBounded) {
-  EditHistory history;
-  EditState state = fresh();
-  history.reset(state);
+TEST_F(History, IsBounded) {
   for (int seed = 1; seed <= 3000; ++seed) {
     state.document.settings.sampler.seed = seed;
-    history.observe(state, true, false);
+    observe();
   }
   int steps = 0;
   while (history.can_undo()) history.undo(), ++steps;
@@ -152,7 +142,7 @@ TEST(EditHistory, IsBounded) {
   std::weak_ptr<OpenScene> first = state.scene;
   for (int i = 0; i < 3; ++i) {
     state.scene = std::make_shared<OpenScene>();
-    history.observe(state, true, false);
+    observe();
   }
   EXPECT_TRUE(first.expired());
 }

@@ -17,6 +17,14 @@ vec2 shown(ViewerHarness& hand, vec3 world) {
 const vec3 kBall(0.2f, -0.6f, 0.1f), kSpark(-0.6f, 0.2f, 0.5f);
 constexpr int kBallIndex = 6;
 
+/// The picture is there, and the ball is selected.
+struct HandOnBall : ViewerHarness {
+  HandOnBall() {
+    wait_for_picture();
+    click(shown(*this, kBall));
+  }
+};
+
 TEST(ViewerSelectionUi, AClickSelectsAndThePanelsFollow) {
   ViewerHarness hand;
   hand.wait_for_picture();
@@ -60,9 +68,7 @@ TEST(ViewerSelectionUi, AClickOnNothingSelectsNothing) {
 
 TEST(ViewerSelectionUi, ASelectionThatIsGoneIsNone) {
   ScratchFolder folder;
-  ViewerHarness hand;
-  hand.wait_for_picture();
-  hand.click(shown(hand, kBall));
+  HandOnBall hand;
   Document smaller = test_document();
   smaller.scene.instances.resize(2);
   write_candela_json(smaller, folder / "smaller.json");
@@ -73,9 +79,7 @@ TEST(ViewerSelectionUi, ASelectionThatIsGoneIsNone) {
 }
 
 TEST(ViewerSelectionUi, OrbitsAboutTheSelectionAndFramesIt) {
-  ViewerHarness hand;
-  hand.wait_for_picture();
-  hand.click(shown(hand, kBall));
+  HandOnBall hand;
   const vec2 before = shown(hand, kBall);
   hand.key_down(Key::left_alt);
   hand.drag({300, 300}, {360, 320});
@@ -87,9 +91,7 @@ TEST(ViewerSelectionUi, OrbitsAboutTheSelectionAndFramesIt) {
 }
 
 TEST(ViewerSelectionUi, TheMoveHandlesMoveAndUndoPutsBack) {
-  ViewerHarness hand;
-  hand.wait_for_picture();
-  hand.click(shown(hand, kBall));
+  HandOnBall hand;
   hand.key(Key::g);
   hand.frame(2);
   const mat4 start = hand.document().scene.instances[kBallIndex].world_from_object;
@@ -115,9 +117,7 @@ TEST(ViewerSelectionUi, TheMoveHandlesMoveAndUndoPutsBack) {
 }
 
 TEST(ViewerSelectionUi, EscapeGivesADragUp) {
-  ViewerHarness hand;
-  hand.wait_for_picture();
-  hand.click(shown(hand, kBall));
+  HandOnBall hand;
   hand.click("tool.move");
   const Document before = hand.document();
   hand.pause();
@@ -133,9 +133,7 @@ TEST(ViewerSelectionUi, EscapeGivesADragUp) {
 }
 
 TEST(ViewerSelectionUi, RotateAndScaleTurnAndGrow) {
-  ViewerHarness hand;
-  hand.wait_for_picture();
-  hand.click(shown(hand, kBall));
+  HandOnBall hand;
   hand.key(Key::r);
   hand.frame(2);
   const vec2 middle = shown(hand, kBall);

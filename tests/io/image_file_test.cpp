@@ -1,8 +1,8 @@
 #include "core/color.h"
-#include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "io/texture_reader.h"
+#include "support/exit_code.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
@@ -13,6 +13,7 @@
 namespace candela {
 namespace {
 
+using test::code_of;
 using test::ScratchFolder;
 
 /// Values over many orders of magnitude, of both signs where asked for.
@@ -35,14 +36,6 @@ std::vector<std::uint8_t> gradient(int width, int height) {
       for (int value : {x * 255 / std::max(1, width - 1), y * 255 / std::max(1, height - 1), 77})
         rgb.push_back(static_cast<std::uint8_t>(value));
   return rgb;
-}
-
-template <class Action>
-ExitCode code_of(Action action) {
-  try {
-    action();
-  } catch (const Error& error) { return error.code(); }
-  return ExitCode::done;
 }
 
 TEST(ImageFile, TheEndingTellsTheFormat) {

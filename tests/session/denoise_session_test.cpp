@@ -1,20 +1,18 @@
 // A session that denoises: beside the render, never instead of it.
 
-#include "session/offline_render.h"
-#include "session/render_session.h"
-#include "support/scenes.h"
-
-#include <gtest/gtest.h>
+#include "session_testing.h"
 
 #include <thread>
 
 namespace candela {
 namespace {
 
-constexpr double kPatience = 120; // seconds before a wait counts as hanging
+using test::kPatience;
+using test::shows;
+using test::small_cornell;
 
-Document small_cornell(int spp) {
-  Document d = test::cornell_flush(61, 43, spp, true).document;
+Document denoised_cornell(int spp) {
+  Document d = small_cornell(spp);
   d.settings.display.denoise = true;
   return d;
 }
@@ -29,9 +27,8 @@ std::vector<vec3> denoised_headless(const Document& document) {
 
 TEST(RenderSession, ShowsTheDenoisedImageOfAllSamples) {
   RenderSession session;
-  Document d = small_cornell(5);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  Document d = denoised_cornell(5);
+  ASSERT_TRUE(shows(session, d));
   auto picture = session.display();
   ASSERT_TRUE(picture->denoised);
   EXPECT_EQ(picture->denoised->spp, 5);
@@ -41,39 +38,34 @@ TEST(RenderSession, ShowsTheDenoisedImageOfAllSamples) {
 
 TEST(RenderSession, DenoisingIsSwitchedWithoutARestart) {
   RenderSession session;
-  Document d = small_cornell(4);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  Document d = denoised_cornell(4);
+  ASSERT_TRUE(shows(session, d));
   auto clean = session.display();
   d.settings.display.denoise = false;
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   auto noisy = session.display();
   EXPECT_FALSE(noisy->denoised);
   EXPECT_NE(noisy->rgba, clean->rgba);
   d.settings.display.denoise = true;
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.display()->rgba, clean->rgba);
   EXPECT_EQ(session.status().restarts, 1u);
 }
 
 TEST(RenderSession, DenoisesWhatIsSwitchedOnAfterwards) {
   RenderSession session;
-  Document d = small_cornell(4);
+  Document d = denoised_cornell(4);
   d.settings.display.denoise = false;
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_FALSE(session.display()->denoised);
   d.settings.display.denoise = true;
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_TRUE(session.display()->denoised);
 }
 
 TEST(RenderSession, NeverShowsTheDenoisedImageOfAnotherScene) {
   RenderSession session;
-  Document d = small_cornell(3);
+  Document d = denoised_cornell(3);
   for (int i = 0; i < 20; ++i) {
     d.scene.camera.position.x = 278.0f + static_cast<float>(i);
     session.submit(d);
@@ -88,17 +80,16 @@ TEST(RenderSession, NeverShowsTheDenoisedImageOfAnotherScene) {
 
 TEST(RenderSession, ShowsOtherViewsAsTheyAre) {
   RenderSession session;
-  Document d = small_cornell(4);
+  Document d = denoised_cornell(4);
   d.settings.view = View::normal;
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_FALSE(session.display()->denoised);
 }
 
 TEST(RenderSession, EndsWhileItDenoises) {
   for (int i = 0; i < 5; ++i) {
     RenderSession session;
-    session.submit(small_cornell(0));
+    session.submit(denoised_cornell(0));
     while (session.status().spp < 2 + i) std::this_thread::yield();
   }
 }

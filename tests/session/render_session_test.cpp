@@ -1,11 +1,7 @@
 // The interactive engine: what restarts, what does not, and that its picture is the headless one. Waits are
 // for events, with limits only against hanging for ever.
 
-#include "session/offline_render.h"
-#include "session/render_session.h"
-#include "support/scenes.h"
-
-#include <gtest/gtest.h>
+#include "session_testing.h"
 
 #include <chrono>
 #include <thread>
@@ -13,14 +9,10 @@
 namespace candela {
 namespace {
 
-constexpr double kPatience = 120; // seconds before a wait counts as hanging
-
-Document small_cornell(int spp = 4, int width = 61, int height = 43) {
-  Document d = test::cornell_flush(width, height, spp, true).document;
-  return d;
-}
-
-std::vector<vec3> headless(const Document& document) { return render_document(document).film.image().pixels; }
+using test::headless;
+using test::kPatience;
+using test::shows;
+using test::small_cornell;
 
 TEST(RenderSession, PictureIsTheHeadlessRenderBitForBit) {
   for (int threads : {1, 2, 3}) {
@@ -80,13 +72,11 @@ TEST(RenderSession, ManyEditsEndInTheLastOne) {
 TEST(RenderSession, DisplayChangesRetoneWithoutRestart) {
   RenderSession session;
   Document d = small_cornell();
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   auto before = session.display();
   std::uint64_t restarts = session.status().restarts;
   d.settings.display.exposure = 2;
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   auto after = session.display();
   EXPECT_EQ(session.status().restarts, restarts);
   EXPECT_EQ(after->frame, before->frame);
@@ -96,11 +86,9 @@ TEST(RenderSession, DisplayChangesRetoneWithoutRestart) {
 TEST(RenderSession, MoreSamplesContinueInsteadOfRestarting) {
   RenderSession session;
   Document d = small_cornell(2);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   d.settings.stop.spp = 7;
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.status().restarts, 1u);
   EXPECT_EQ(session.latest()->spp, 7);
   EXPECT_TRUE(session.latest()->linear == headless(d));
@@ -109,11 +97,9 @@ TEST(RenderSession, MoreSamplesContinueInsteadOfRestarting) {
 TEST(RenderSession, AMaterialEditRestartsAndShowsItself) {
   RenderSession session;
   Document d = small_cornell();
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   d.scene.materials[0].diffuse = {0.1f, 0.2f, 0.9f};
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.status().restarts, 2u);
   EXPECT_TRUE(session.latest()->linear == headless(d));
 }
@@ -121,15 +107,13 @@ TEST(RenderSession, AMaterialEditRestartsAndShowsItself) {
 TEST(RenderSession, EmissionEditRebuildsLights) {
   RenderSession session;
   Document d = small_cornell();
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   d.scene.materials[0].emission = {0.5f, 0.5f, 0.5f};
   LightDesc bulb;
   bulb.position = {278, 273, 279};
   bulb.color = vec3(1e5f);
   d.scene.lights.push_back(bulb);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_TRUE(session.latest()->linear == headless(d));
 }
 
@@ -137,8 +121,7 @@ TEST(RenderSession, FilmSizesFromOnePixelUp) {
   RenderSession session;
   for (auto [w, h] : {std::pair{1, 1}, {7, 3}, {8, 8}, {9, 17}, {130, 2}}) {
     Document d = small_cornell(3, w, h);
-    session.submit(d);
-    ASSERT_TRUE(session.wait_finished(kPatience));
+    ASSERT_TRUE(shows(session, d));
     auto picture = session.display();
     EXPECT_EQ(picture->width, w);
     EXPECT_EQ(picture->height, h);
@@ -158,8 +141,7 @@ TEST(RenderSession, PicksWhatIsUnderAPixel) {
   RenderSession session;
   EXPECT_FALSE(session.pick({0, 0}));
   Document d = small_cornell(1, 64, 64);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   auto hit = session.pick({32, 20}); // the back wall above the blocks
   ASSERT_TRUE(hit);
   EXPECT_NEAR(hit->position.z, 559.2f, 0.1f);
@@ -171,8 +153,7 @@ TEST(RenderSession, PicksWhatIsUnderAPixel) {
 TEST(RenderSession, CountsOnlyItsOwnAccumulation) {
   RenderSession session;
   Document d = small_cornell(3);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   SessionStatus status = session.status();
   EXPECT_EQ(status.rays.samples, 3u * 61u * 43u);
   EXPECT_EQ(status.progress, 1);

@@ -1,10 +1,6 @@
 // Pause, step, region, build quality: what the user holds back or asks for, and that no sample is lost by it.
 
-#include "session/offline_render.h"
-#include "session/render_session.h"
-#include "support/scenes.h"
-
-#include <gtest/gtest.h>
+#include "session_testing.h"
 
 #include <chrono>
 #include <thread>
@@ -12,15 +8,14 @@
 namespace candela {
 namespace {
 
-constexpr double kPatience = 120; // seconds before a wait counts as hanging
-
-Document cornell(int spp) { return test::cornell_flush(61, 43, spp, true).document; }
-
-std::vector<vec3> headless(const Document& document) { return render_document(document).film.image().pixels; }
+using test::headless;
+using test::kPatience;
+using test::shows;
+using test::small_cornell;
 
 TEST(SessionControl, APauseKeepsThePassesItHasAndResumesToTheSameBits) {
   RenderSession session;
-  Document d = cornell(0); // never finished by itself
+  Document d = small_cornell(0); // never finished by itself
   session.submit(d);
   session.pause(true);
   ASSERT_TRUE(session.wait_finished(kPatience));
@@ -31,8 +26,7 @@ TEST(SessionControl, APauseKeepsThePassesItHasAndResumesToTheSameBits) {
   EXPECT_EQ(session.latest(), frame) << "nothing accumulates";
 
   d.settings.stop.spp = frame->spp + 5;
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.latest()->spp, frame->spp) << "a later stop does not end the pause";
   session.pause(false);
   ASSERT_TRUE(session.wait_finished(kPatience));
@@ -44,9 +38,8 @@ TEST(SessionControl, APauseKeepsThePassesItHasAndResumesToTheSameBits) {
 TEST(SessionControl, AnEditWhilePausedShowsItsFirstPass) {
   RenderSession session;
   session.pause(true);
-  Document d = cornell(0);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  Document d = small_cornell(0);
+  ASSERT_TRUE(shows(session, d));
   for (int i = 1; i <= 3; ++i) {
     d.scene.camera.position.x += 3;
     const std::uint64_t generation = session.submit(d);
@@ -60,9 +53,8 @@ TEST(SessionControl, AnEditWhilePausedShowsItsFirstPass) {
 TEST(SessionControl, AStepIsOneSampleAPixel) {
   RenderSession session;
   session.pause(true);
-  Document d = cornell(0);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  Document d = small_cornell(0);
+  ASSERT_TRUE(shows(session, d));
   for (int spp = 2; spp <= 6; ++spp) {
     session.step();
     ASSERT_TRUE(session.wait_finished(kPatience));
@@ -75,9 +67,8 @@ TEST(SessionControl, AStepIsOneSampleAPixel) {
 TEST(SessionControl, ARegionAccumulatesAloneAndTheRestCatchesUp) {
   RenderSession session;
   session.pause(true);
-  Document d = cornell(9);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  Document d = small_cornell(9);
+  ASSERT_TRUE(shows(session, d));
   const auto first = session.latest();
   const CropWindow region{10, 7, 20, 11};
   session.set_region(region);
@@ -103,28 +94,24 @@ TEST(SessionControl, ARegionBeforeTheFirstDocumentWaitsForIt) {
   session.set_region({1, 1, 5, 5});
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_EQ(session.status().phase, SessionPhase::idle);
-  Document d = cornell(2);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  Document d = small_cornell(2);
+  ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.latest()->spp, 2);
 }
 
 TEST(SessionControl, FastGeometryIsBuiltAgainWellOnce) {
   RenderSession session;
-  Document d = cornell(2);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  Document d = small_cornell(2);
+  ASSERT_TRUE(shows(session, d));
   d.scene.instances.back().world_from_object[3].x += 20;
   session.submit(d, BuildQuality::fast);
   ASSERT_TRUE(session.wait_finished(kPatience));
   EXPECT_EQ(session.status().restarts, 2u);
   EXPECT_TRUE(session.latest()->linear == headless(d)) << "the tree's quality is no part of the image";
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.status().restarts, 3u);
   EXPECT_TRUE(session.latest()->linear == headless(d));
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.status().restarts, 3u);
 }
 

@@ -1,83 +1,73 @@
 // Views of the samples that a session has, and its stops by noise and by convergence.
 
 #include "render/film_view.h"
-#include "session/offline_render.h"
-#include "session/render_session.h"
-#include "support/scenes.h"
-
-#include <gtest/gtest.h>
+#include "session_testing.h"
 
 namespace candela {
 namespace {
 
-constexpr double kPatience = 120; // seconds before a wait counts as hanging
+using test::shows;
+using test::small_cornell;
 
-Document small_cornell(int spp) { return test::cornell_flush(41, 33, spp, true).document; }
+Document view_document(int spp) { return small_cornell(spp, 41, 33); }
 
 TEST(RenderSession, ViewsOfTheSameSamplesDoNotRestart) {
   RenderSession session;
-  Document d = small_cornell(5);
+  Document d = view_document(5);
   OfflineResult headless = render_document(d);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   for (View view : {View::variance, View::samples, View::nonfinite, View::radiance}) {
     d.settings.view = view;
-    session.submit(d);
-    ASSERT_TRUE(session.wait_finished(kPatience));
+    ASSERT_TRUE(shows(session, d));
     EXPECT_EQ(session.latest()->view, view);
     EXPECT_TRUE(session.latest()->linear == view_image(headless.film, view).pixels);
   }
   EXPECT_EQ(session.status().restarts, 1u);
   d.settings.view = View::albedo;
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.status().restarts, 2u);
 }
 
 TEST(RenderSession, FramesTellVarianceAndSamplesOfEveryPixel) {
   RenderSession session;
-  Document d = small_cornell(6);
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  Document d = view_document(6);
+  ASSERT_TRUE(shows(session, d));
   OfflineResult headless = render_document(d);
   EXPECT_TRUE(session.latest()->variance == headless.film.variance_image().pixels);
   EXPECT_EQ(session.latest()->samples, std::vector<std::uint32_t>(41 * 33, 6));
 }
 
 TEST(RenderSession, StopsAtTheNoiseWhereTheHeadlessRenderDoes) {
-  Document d = small_cornell(0);
+  Document d = view_document(0);
   d.settings.stop.noise = 0.08f;
   OfflineResult headless = render_document(d);
   EXPECT_TRUE(is_noise_check(headless.spp));
   EXPECT_LE(headless.noise, 0.08);
   RenderSession session;
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.latest()->spp, headless.spp);
   EXPECT_TRUE(session.latest()->linear == headless.film.image().pixels);
 
   d.settings.stop.noise = 0.05f; // goes on from there
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.status().restarts, 1u);
   EXPECT_GT(session.latest()->spp, headless.spp);
   EXPECT_TRUE(session.latest()->linear == render_document(d).film.image().pixels);
 }
 
 TEST(RenderSession, EndsWhereAdaptiveSamplingHasNothingLeftToDo) {
-  Document d = small_cornell(0);
+  Document d = view_document(0);
   d.settings.adaptive.error = 0.5f;
   d.settings.adaptive.min_spp = 4;
   OfflineResult headless = render_document(d);
   EXPECT_TRUE(headless.converged);
   RenderSession session;
-  session.submit(d);
-  ASSERT_TRUE(session.wait_finished(kPatience));
+  ASSERT_TRUE(shows(session, d));
   EXPECT_TRUE(session.latest()->linear == headless.film.image().pixels);
 }
 
 TEST(OfflineRender, OtherViewsHaveTheRendersSamples) {
-  Document d = small_cornell(3);
+  Document d = view_document(3);
   OfflineOptions options;
   options.components = true;
   OfflineResult rendered = render_document(d, options);

@@ -1,0 +1,21 @@
+#pragma once
+// A scene in Candela JSON, and what reading it says.
+
+#include "scene_files.h"
+
+namespace candela::test {
+
+struct CandelaJson : ::testing::Test {
+  SceneFiles files;
+
+  LoadedScene read(const std::string& json) {
+    files.write("s.json", json);
+    return files.read("s.json");
+  }
+  std::string error(const std::string& json, ExitCode code = ExitCode::bad_input) {
+    files.write("s.json", json);
+    return files.error("s.json", code);
+  }
+};
+
+} // namespace candela::test

@@ -1,0 +1,31 @@
+#pragma once
+// What the tests of sessions share: a small scene, waiting for its picture, and what that should be.
+
+#include "session/offline_render.h"
+#include "session/render_session.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace candela::test {
+
+inline constexpr double kPatience = 120; ///< seconds before a wait counts as hanging
+
+inline Document small_cornell(int spp = 4, int width = 61, int height = 43) {
+  return cornell_flush(width, height, spp, true).document;
+}
+
+inline std::vector<vec3> headless(const Document& document) {
+  return render_document(document).film.image().pixels;
+}
+
+/// Hands the document in and waits until all of it is shown; of a paused session, its first pass.
+inline ::testing::AssertionResult shows(RenderSession& session, const Document& document) {
+  session.submit(document);
+  if (session.wait_finished(kPatience)) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "it did not get ready";
+}
+
+} // namespace candela::test
