@@ -1,6 +1,7 @@
 #include "accel/accel.h"
 
 #include "accel/binary_bvh.h"
+#include "accel/build_stage.h"
 #include "accel/layout.h"
 #include "accel/wide_bvh.h"
 #include "core/error.h"
@@ -152,7 +153,9 @@ Accel::Accel(Accel&&) noexcept = default;
 Accel& Accel::operator=(Accel&&) noexcept = default;
 Accel::Accel(std::unique_ptr<const AccelTree> tree) : tree_(std::move(tree)) {}
 
-Accel Accel::build(const AccelInput& input, BuildQuality quality) {
+std::uint64_t Accel::build_work(std::size_t primitives) { return kWorkPerPrimitive * primitives; }
+
+Accel Accel::build(const AccelInput& input, BuildQuality quality, Progress* progress) {
   std::size_t count =
       input.triangles.size() + input.spheres.size() + input.discs.size() + input.instances.size();
   if (count > kMaxPrimitives)
@@ -161,6 +164,8 @@ Accel Accel::build(const AccelInput& input, BuildQuality quality) {
     if (instance.object && instance.object->stats().instances)
       throw limit_error({}, "instance", "its object holds instances itself", "flatten the hierarchy");
 
+  const BuildStage making_refs(progress, StageWork::refs), filling_packs(progress, StageWork::packs);
+  making_refs.check();
   auto tree = std::make_unique<AccelTree>();
   AccelStats& stats = tree->stats;
   std::vector<BuildRef> refs;
@@ -175,10 +180,12 @@ Accel Accel::build(const AccelInput& input, BuildQuality quality) {
                                 [&](std::size_t i) { return instance_bounds(input, i); });
   stats.skipped = count - refs.size();
   stats.bytes = sizeof(AccelTree);
+  making_refs.done(refs.size());
+  if (progress) progress->advance(build_work(stats.skipped));
   if (refs.empty()) return Accel(std::move(tree));
 
-  BinaryBvh binary = build_binary_bvh(std::move(refs), quality);
-  WideBvh wide = collapse(binary, quality);
+  BinaryBvh binary = build_binary_bvh(std::move(refs), quality, progress);
+  WideBvh wide = collapse(binary, quality, progress);
   const BinaryNode& root = binary.nodes[0];
   tree->root = wide.root;
   tree->bounds = {{root.lo[0], root.lo[1], root.lo[2]}, {root.hi[0], root.hi[1], root.hi[2]}};
@@ -190,6 +197,7 @@ Accel Accel::build(const AccelInput& input, BuildQuality quality) {
   tree->instances.resize(wide.packs[static_cast<std::size_t>(LeafKind::instance)]);
 #pragma omp parallel for schedule(static) if (wide.leaves.size() > 1000)
   for (std::size_t i = 0; i < wide.leaves.size(); ++i) fill_pack(*tree, input, binary.refs, wide.leaves[i]);
+  filling_packs.done(binary.refs.size());
 
   stats.nodes = tree->nodes.size();
   stats.leaves = wide.leaves.size();

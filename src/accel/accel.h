@@ -10,6 +10,7 @@
 // threads and for any SIMD instruction set.
 
 #include "core/bounds.h"
+#include "core/progress.h"
 #include "core/ray.h"
 
 #include <cstddef>
@@ -100,8 +101,12 @@ public:
   Accel& operator=(Accel&&) noexcept;
 
   /// Uses the threads that OpenMP gives it; the tree does not depend on their number. Throws Error
-  /// (ExitCode::limit) above 2^28 primitives or for nested instances.
-  static Accel build(const AccelInput& input, BuildQuality quality = BuildQuality::high);
+  /// (ExitCode::limit) above 2^28 primitives or for nested instances; Cancelled soon after `progress`, which
+  /// may be null, is told to end. The caller has progress->expect() build_work() of the input's primitives.
+  static Accel build(const AccelInput& input, BuildQuality quality = BuildQuality::high,
+                     Progress* progress = nullptr);
+  /// The work of a build from so many primitives, of all kinds together.
+  static std::uint64_t build_work(std::size_t primitives);
 
   /// The closest hit with t in (t_min, t_max), or nothing. A negative t_min counts as 0. The direction is of
   /// any length from 1e-18 to 1e18; a ray that is not finite meets nothing.

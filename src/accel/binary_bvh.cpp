@@ -1,5 +1,7 @@
 #include "accel/binary_bvh.h"
 
+#include "accel/build_stage.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -99,13 +101,15 @@ float packs(std::uint32_t count) { return static_cast<float>((count + kWidth - 1
 
 class Builder {
 public:
-  Builder(BinaryBvh& bvh, BuildQuality quality) : bvh_(bvh), quality_(quality) {}
+  Builder(BinaryBvh& bvh, BuildQuality quality, const BuildStage& stage)
+      : bvh_(bvh), quality_(quality), stage_(stage) {}
 
   void build() {
     auto count = static_cast<std::uint32_t>(bvh_.refs.size());
 #pragma omp parallel if (count >= kTaskRange)
 #pragma omp single
-    build_range(0, 0, count, range_bounds(0, count), 1);
+    build_subtree(0, 0, count, range_bounds(0, count), 1);
+    stage_.check();
   }
 
 private:
@@ -235,6 +239,14 @@ private:
     return middle;
   }
 
+  /// One that may be a task of its own. Cancelled, it leaves its nodes as they are.
+  void build_subtree(std::uint32_t node, std::uint32_t begin, std::uint32_t end, const RangeBounds& bounds,
+                     int depth) {
+    if (stage_.cancelled()) return;
+    build_range(node, begin, end, bounds, depth);
+    if (end - begin < kTaskRange) stage_.done(end - begin);
+  }
+
   void build_range(std::uint32_t node_index, std::uint32_t begin, std::uint32_t end,
                    const RangeBounds& bounds, int depth) {
     BinaryNode& node = bvh_.nodes[node_index];
@@ -250,8 +262,8 @@ private:
     std::uint32_t left_node = node_index + 1, right_node = node_index + 2 * (middle - begin);
     if (count >= kTaskRange) {
 #pragma omp task default(shared) firstprivate(left_node, begin, middle, depth)
-      build_range(left_node, begin, middle, left, depth + 1);
-      build_range(right_node, middle, end, right, depth + 1);
+      build_subtree(left_node, begin, middle, left, depth + 1);
+      build_subtree(right_node, middle, end, right, depth + 1);
 #pragma omp taskwait
     } else {
       build_range(left_node, begin, middle, left, depth + 1);
@@ -261,15 +273,16 @@ private:
 
   BinaryBvh& bvh_;
   BuildQuality quality_;
+  const BuildStage& stage_;
 };
 
 } // namespace
 
-BinaryBvh build_binary_bvh(std::vector<BuildRef> refs, BuildQuality quality) {
+BinaryBvh build_binary_bvh(std::vector<BuildRef> refs, BuildQuality quality, Progress* progress) {
   BinaryBvh bvh;
   bvh.nodes = std::make_unique_for_overwrite<BinaryNode[]>(2 * refs.size() - 1);
   bvh.refs = std::move(refs);
-  Builder(bvh, quality).build();
+  Builder(bvh, quality, BuildStage(progress, StageWork::binary)).build();
   return bvh;
 }
 

@@ -5,6 +5,7 @@
 
 #include "accel/accel.h"
 #include "accel/layout.h"
+#include "core/progress.h"
 
 #include <memory>
 #include <vector>
@@ -47,8 +48,8 @@ struct BinaryBvh {
 };
 
 /// refs is not empty and its boxes are finite. high builds down to single primitives, fast stops at what fits
-/// a pack.
-BinaryBvh build_binary_bvh(std::vector<BuildRef> refs, BuildQuality quality);
+/// a pack. Throws Cancelled.
+BinaryBvh build_binary_bvh(std::vector<BuildRef> refs, BuildQuality quality, Progress* progress = nullptr);
 
 /// The most primitives of a kind that a leaf holds.
 constexpr std::uint32_t leaf_capacity(LeafKind kind) {

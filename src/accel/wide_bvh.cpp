@@ -14,12 +14,25 @@ bool fits_leaf(const BinaryBvh& bvh, const BinaryNode& node) {
 
 } // namespace
 
-CollapsePlan::CollapsePlan(const BinaryBvh& bvh, BuildQuality quality) : bvh_(bvh) {
-  if (quality == BuildQuality::fast) return;
+CollapsePlan::CollapsePlan(const BinaryBvh& bvh, BuildQuality quality, const BuildStage& stage)
+    : bvh_(bvh), stage_(stage) {
+  if (quality == BuildQuality::fast) {
+    stage_.done(bvh.refs.size());
+    return;
+  }
   decisions_ = std::make_unique_for_overwrite<std::uint32_t[]>(2 * bvh.refs.size() - 1);
 #pragma omp parallel if (bvh.refs.size() >= kTaskRange)
 #pragma omp single
-  plan(0);
+  plan_subtree(0);
+  stage_.check();
+}
+
+/// One that may be a task of its own. Cancelled, it decides nothing.
+CollapsePlan::Costs CollapsePlan::plan_subtree(std::uint32_t node) {
+  if (stage_.cancelled()) return {};
+  const Costs costs = plan(node);
+  if (std::uint32_t count = bvh_.nodes[node].count; count < kTaskRange) stage_.done(count);
+  return costs;
 }
 
 bool CollapsePlan::is_leaf(std::uint32_t node) const {
@@ -42,8 +55,8 @@ CollapsePlan::Costs CollapsePlan::plan(std::uint32_t index) {
   Costs left, right;
   if (node.count >= kTaskRange) {
 #pragma omp task default(shared) firstprivate(left_index)
-    left = plan(left_index);
-    right = plan(right_index);
+    left = plan_subtree(left_index);
+    right = plan_subtree(right_index);
 #pragma omp taskwait
   } else {
     left = plan(left_index), right = plan(right_index);
@@ -123,9 +136,17 @@ namespace {
 
 class Emitter {
 public:
-  Emitter(const BinaryBvh& bvh, const CollapsePlan& plan, WideBvh& wide)
-      : bvh_(bvh), plan_(plan), wide_(wide) {}
+  Emitter(const BinaryBvh& bvh, const CollapsePlan& plan, WideBvh& wide, const BuildStage& stage)
+      : bvh_(bvh), plan_(plan), wide_(wide), stage_(stage) {}
 
+  /// The whole tree.
+  ChildRef emit() {
+    const ChildRef root = emit(0, 1);
+    if (bvh_.nodes[0].count < kTaskRange) stage_.done(bvh_.nodes[0].count);
+    return root;
+  }
+
+private:
   ChildRef emit(std::uint32_t node, int depth) {
     if (plan_.is_leaf(node)) return emit_leaf(bvh_.nodes[node]);
     wide_.depth = std::max(wide_.depth, depth);
@@ -134,6 +155,8 @@ public:
     WideNode empty;
     for (auto& axis : empty.box) axis[0].fill(kInfinity), axis[1].fill(-kInfinity);
     wide_.nodes.push_back(empty);
+    const bool large = bvh_.nodes[node].count >= kTaskRange;
+    if (large) stage_.check();
     std::array<std::uint32_t, kWidth> children;
     auto count = static_cast<std::size_t>(plan_.children(node, children));
     for (std::size_t i = 0; i < count; ++i) {
@@ -144,13 +167,13 @@ public:
       }
       ChildRef ref = emit(children[i], depth + 1);
       wide_.nodes[index].child[i] = ref; // not before: the vector may have moved
+      if (large && child.count < kTaskRange) stage_.done(child.count);
     }
     // No ray meets an empty slot, but one of nonsense (NaN) must find a child there all the same.
     for (std::size_t i = count; i < kWidth; ++i) wide_.nodes[index].child[i] = wide_.nodes[index].child[0];
     return ChildRef::node(index);
   }
 
-private:
   ChildRef emit_leaf(const BinaryNode& node) {
     LeafKind kind = bvh_.refs[node.begin].kind;
     std::uint32_t pack = wide_.packs[static_cast<std::size_t>(kind)]++;
@@ -162,14 +185,16 @@ private:
   const BinaryBvh& bvh_;
   const CollapsePlan& plan_;
   WideBvh& wide_;
+  const BuildStage& stage_;
 };
 
 } // namespace
 
-WideBvh collapse(const BinaryBvh& bvh, BuildQuality quality) {
+WideBvh collapse(const BinaryBvh& bvh, BuildQuality quality, Progress* progress) {
   WideBvh wide;
-  CollapsePlan plan(bvh, quality);
-  wide.root = Emitter(bvh, plan, wide).emit(0, 1);
+  const BuildStage planning(progress, StageWork::plan), emitting(progress, StageWork::emit);
+  CollapsePlan plan(bvh, quality, planning);
+  wide.root = Emitter(bvh, plan, wide, emitting).emit();
   if (float area = bvh.nodes[0].half_area(); area > 0) wide.sah_cost /= area;
   wide.nodes.shrink_to_fit();
   return wide;

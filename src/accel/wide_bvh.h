@@ -2,6 +2,7 @@
 // Turns the binary tree into nodes of eight children and leaves that are one pack each.
 
 #include "accel/binary_bvh.h"
+#include "accel/build_stage.h"
 
 #include <vector>
 
@@ -16,7 +17,7 @@ constexpr float leaf_cost(LeafKind kind) { return kind == LeafKind::instance ? 8
 /// GPUs Through Compressed Wide BVHs", section 3.1), or greedily: always open the child of largest area.
 class CollapsePlan {
 public:
-  CollapsePlan(const BinaryBvh& bvh, BuildQuality quality);
+  CollapsePlan(const BinaryBvh& bvh, BuildQuality quality, const BuildStage& stage);
 
   bool is_leaf(std::uint32_t node) const;
   /// The binary nodes that become the children of the wide node made from this one; gives how many.
@@ -25,10 +26,12 @@ public:
 private:
   using Costs = std::array<float, kWidth>; ///< [i]: of a forest of at most i trees, i in 1..7
   Costs plan(std::uint32_t node);
+  Costs plan_subtree(std::uint32_t node);
   void distribute(std::uint32_t node, int slots, std::array<std::uint32_t, kWidth>& result, int& count) const;
   void open_largest(std::uint32_t node, std::array<std::uint32_t, kWidth>& result, int& count) const;
 
   const BinaryBvh& bvh_;
+  const BuildStage& stage_;
   /// Four bits for each number of slots i: how many of them the left child gets; 0 (for i < 8) means that one
   /// slot less is no worse. Bits 0 to 3: whether the node is a leaf when it has a slot to itself.
   std::unique_ptr<std::uint32_t[]> decisions_;
@@ -50,6 +53,7 @@ struct WideBvh {
   double sah_cost = 0;
 };
 
-WideBvh collapse(const BinaryBvh& bvh, BuildQuality quality);
+/// Throws Cancelled.
+WideBvh collapse(const BinaryBvh& bvh, BuildQuality quality, Progress* progress = nullptr);
 
 } // namespace candela::accel_detail

@@ -38,9 +38,11 @@ struct RectangleGeometry {
 class Geometry {
 public:
   /// Bakes and builds. Spheres and discs that their transform would make ellipsoids are made of triangles, as
-  /// are all shapes of render/shape_mesh.h.
+  /// are all shapes of render/shape_mesh.h. Throws Cancelled soon after `progress` is told to end; it may be
+  /// null.
   static std::shared_ptr<const Geometry> build(const std::vector<Instance>& instances,
-                                               BuildQuality quality = BuildQuality::high);
+                                               BuildQuality quality = BuildQuality::high,
+                                               Progress* progress = nullptr);
 
   const Accel& accel() const { return accel_; }
   /// Fills in the rest of what is known about a hit of `ray`.

@@ -68,23 +68,28 @@ public:
     }
   }
 
-  std::shared_ptr<const Geometry> build(BuildQuality quality) {
-    for (std::size_t i = 0; i < instances_.size(); ++i) add(static_cast<std::uint32_t>(i));
+  std::shared_ptr<const Geometry> build(BuildQuality quality, Progress* progress) {
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+      if (progress) progress->check();
+      add(static_cast<std::uint32_t>(i));
+    }
     if (world_normals_) g_->world_.normals.resize(g_->world_.positions.size(), vec3(0));
     if (world_uvs_) g_->world_.uvs.resize(g_->world_.positions.size(), vec2(0));
     g_->emitter_count_ = g_->disc_emitter(g_->discs_.size());
 
+    if (progress) progress->expect(accel_work());
     std::vector<InstanceGeometry> placed;
     for (auto& object : g_->objects_)
-      object->accel = Accel::build({object->set.positions, object->set.triangles, {}, {}, {}}, quality);
+      object->accel =
+          Accel::build({object->set.positions, object->set.triangles, {}, {}, {}}, quality, progress);
     for (auto& p : g_->placed_) {
       const Geometry::Object& object = *g_->objects_[p.object];
       p.first_emitter = g_->emitter_count_;
       g_->emitter_count_ += static_cast<std::uint32_t>(object.set.triangles.size());
       placed.push_back({&object.accel, p.world_from_object});
     }
-    g_->accel_ =
-        Accel::build({g_->world_.positions, g_->world_.triangles, g_->spheres_, g_->discs_, placed}, quality);
+    g_->accel_ = Accel::build({g_->world_.positions, g_->world_.triangles, g_->spheres_, g_->discs_, placed},
+                              quality, progress);
     bool endless = std::ranges::any_of(
         instances_, [](const Instance& i) { return std::holds_alternative<PlaneShape>(i.shape); });
     g_->finite_bounds_ = endless ? instance_bounds(instances_) : g_->accel_.bounds();
@@ -92,6 +97,13 @@ public:
   }
 
 private:
+  std::uint64_t accel_work() const {
+    std::size_t primitives =
+        g_->world_.triangles.size() + g_->spheres_.size() + g_->discs_.size() + g_->placed_.size();
+    for (const auto& object : g_->objects_) primitives += object->set.triangles.size();
+    return Accel::build_work(primitives);
+  }
+
   /// Below this many triangles in all its places, a shared mesh is baked into each of them.
   static constexpr std::size_t kBakeLimit = 4096;
 
@@ -252,9 +264,9 @@ private:
   bool world_normals_ = false, world_uvs_ = false;
 };
 
-std::shared_ptr<const Geometry> Geometry::build(const std::vector<Instance>& instances,
-                                                BuildQuality quality) {
-  return GeometryBuilder(instances).build(quality);
+std::shared_ptr<const Geometry> Geometry::build(const std::vector<Instance>& instances, BuildQuality quality,
+                                                Progress* progress) {
+  return GeometryBuilder(instances).build(quality, progress);
 }
 
 } // namespace candela

@@ -38,11 +38,11 @@ Bsdf make_bsdf(const Material& m) {
 }
 
 std::shared_ptr<const RenderScene> RenderScene::build(const Document& document, const RenderScene* previous,
-                                                      BuildQuality quality) {
+                                                      BuildQuality quality, Progress* progress) {
   auto scene = std::make_shared<RenderScene>();
   const SceneDesc& desc = document.scene;
   bool same = previous != nullptr && previous->instances_ == desc.instances;
-  scene->geometry_ = same ? previous->geometry_ : Geometry::build(desc.instances, quality);
+  scene->geometry_ = same ? previous->geometry_ : Geometry::build(desc.instances, quality, progress);
   scene->instances_ = desc.instances;
   scene->textures_ = desc.textures;
   scene->add_materials(document);

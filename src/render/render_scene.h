@@ -26,9 +26,11 @@ inline constexpr std::uint32_t kNoLight = 0xffffffffu;
 class RenderScene {
 public:
   /// Reuses the geometry of `previous` where the instances are the same, and what it made of panoramas.
+  /// Throws Cancelled soon after `progress` is told to end; it may be null.
   static std::shared_ptr<const RenderScene> build(const Document& document,
                                                   const RenderScene* previous = nullptr,
-                                                  BuildQuality quality = BuildQuality::high);
+                                                  BuildQuality quality = BuildQuality::high,
+                                                  Progress* progress = nullptr);
 
   const Geometry& geometry() const { return *geometry_; }
   const SurfaceMaterial& material(std::uint32_t index) const { return materials_[index]; }

@@ -42,6 +42,10 @@ void RenderSession::State::render_loop() {
         status.phase = may_go_on() ? SessionPhase::rendering : SessionPhase::paused;
       else if (!pending)
         status.phase = SessionPhase::finished;
+    } catch (const Cancelled&) { // building: a newer Document waits, or the end
+      std::lock_guard lock(mutex);
+      ++status.builds_cancelled;
+      continue;
     } catch (const Error& e) {
       std::lock_guard lock(mutex);
       status.phase = SessionPhase::failed;
@@ -84,6 +88,9 @@ bool RenderSession::State::take_pending() {
       status.render_seconds = 0;
       status.progress = 0;
       status.nonfinite = 0;
+      building = std::make_shared<Progress>();
+      building_quality = quality;
+      if (quit) building->cancel();
     }
     status.phase = worst >= Invalidates::image ? SessionPhase::building : SessionPhase::rendering;
   }
@@ -121,14 +128,17 @@ void RenderSession::State::apply_region() {
 
 void RenderSession::State::restart() {
   // Materials and lights are made anew, which is quick; the geometry stays where the instances stay.
-  BuildQuality wanted;
-  {
-    std::lock_guard lock(mutex);
-    wanted = quality;
-  }
+  struct End { // also when it is cancelled or fails
+    State& state;
+    ~End() {
+      std::lock_guard lock(state.mutex);
+      state.building.reset();
+    }
+  } end{*this};
+  const BuildQuality wanted = building_quality; // this thread's alone to write, like `building`
   const bool too_coarse = built == BuildQuality::fast && wanted == BuildQuality::high;
   const RenderScene* previous = scene ? scene.get() : options.geometry_of.get();
-  auto made = RenderScene::build(current, too_coarse ? nullptr : previous, wanted);
+  auto made = RenderScene::build(current, too_coarse ? nullptr : previous, wanted, building.get());
   if (scene == nullptr || &made->geometry() != &scene->geometry()) built = wanted;
   {
     std::lock_guard lock(mutex);

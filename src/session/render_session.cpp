@@ -18,6 +18,8 @@ std::uint64_t RenderSession::submit(Document document, BuildQuality quality) {
     Invalidates consequence =
         s.status.submitted == 0 ? Invalidates::scene : compare_documents(s.newest, document);
     if (s.quality == BuildQuality::fast && quality == BuildQuality::high) consequence = Invalidates::scene;
+    const bool dragged = s.building_quality == BuildQuality::fast && quality == BuildQuality::fast;
+    if (s.building && !dragged && s.newest.scene.instances != document.scene.instances) s.building->cancel();
     s.quality = quality;
     s.newest = document;
     s.pending = std::move(document);
@@ -92,7 +94,9 @@ std::shared_ptr<const DisplayImage> RenderSession::display() const {
 
 SessionStatus RenderSession::status() const {
   std::lock_guard lock(state_->mutex);
-  return state_->status;
+  SessionStatus status = state_->status;
+  status.built = state_->building ? state_->building->share() : 0;
+  return status;
 }
 
 std::optional<Pick> RenderSession::pick(vec2 film_position) const {

@@ -28,11 +28,13 @@ struct SessionStatus {
   RayCounts rays;               ///< of this accumulation
   double render_seconds = 0;    ///< of this accumulation
   double first_image_ms =
-      0;               ///< from the last restarting submit() to its first published image; < 0: not there yet
-  double progress = 0; ///< 0..1 towards the nearest stopping criterion; 0 where there is none
-  std::uint64_t nonfinite = 0; ///< NaN or infinite samples of this accumulation
-  std::string error;           ///< why phase is failed
-  std::string denoise_error;   ///< why the last attempt to denoise this accumulation made no picture
+      0;            ///< from the last restarting submit() to its first published image; < 0: not there yet
+  double built = 0; ///< 0..1: how far building is; while phase is building
+  std::uint64_t builds_cancelled = 0; ///< since the session began: a newer Document had other geometry
+  double progress = 0;                ///< 0..1 towards the nearest stopping criterion; 0 where there is none
+  std::uint64_t nonfinite = 0;        ///< NaN or infinite samples of this accumulation
+  std::string error;                  ///< why phase is failed
+  std::string denoise_error;          ///< why the last attempt to denoise this accumulation made no picture
 };
 
 /// A tone-mapped picture, ready for glTexImage2D as RGBA8.
@@ -68,7 +70,9 @@ public:
   /// Hands in a new Document (latest wins) and returns its generation. What it restarts is decided by
   /// compare_documents(): a display-only change re-tones the newest frame and keeps accumulating. While
   /// objects are being dragged their geometry may be built fast; the first submit() of high quality after
-  /// that builds it again.
+  /// that builds it again. A Document with other instances cancels the building of the one before, unless
+  /// both are of a drag: there every picture counts, and fast building that is cancelled each time shows
+  /// none.
   std::uint64_t submit(Document document, BuildQuality quality = BuildQuality::high);
 
   /// While paused nothing accumulates; edits still show their first pass. The pass in flight is finished.

@@ -1,6 +1,7 @@
 #pragma once
 // The inside of RenderSession: what its threads share and what belongs to each. Only session/ includes this.
 
+#include "core/progress.h"
 #include "render/render_pass.h"
 #include "session/denoise_thread.h"
 #include "session/render_session.h"
@@ -35,6 +36,7 @@ struct RenderSession::State {
       std::lock_guard lock(mutex);
       quit = true;
       quitting = stop = true;
+      if (building) building->cancel();
     }
     changed.notify_all();
     if (options.turns) options.turns->wake();
@@ -57,6 +59,10 @@ struct RenderSession::State {
   int steps_wanted = 0;
   CropWindow region;
   bool region_changed = false;
+
+  // Written by the render thread.
+  std::shared_ptr<Progress> building; ///< of the RenderScene in the making, if one is
+  BuildQuality building_quality = BuildQuality::high;
 
   // What is shown.
   SessionStatus status;

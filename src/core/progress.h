@@ -1,0 +1,75 @@
+#pragma once
+// How far long work has come, and the wish that it ends early: what the one who works and the one who waits
+// tell each other across threads.
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+
+namespace candela {
+
+/// Thrown out of work that was told to end early.
+struct Cancelled : std::exception {
+  const char* what() const noexcept override { return "the work was given up"; }
+};
+
+/// Units of work are the worker's own (bytes, primitives). All members may be called from any thread.
+class Progress {
+public:
+  /// Tells the work to end; that is for good.
+  void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+  bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+  /// Throws Cancelled if it is to end. Not for the inside of an OpenMP region, which no exception may leave.
+  void check() const {
+    if (cancelled()) throw Cancelled();
+  }
+
+  /// There is so much (more) to do.
+  void expect(std::uint64_t work) { expected_.fetch_add(work, std::memory_order_relaxed); }
+  /// So much of it (more) is done.
+  void advance(std::uint64_t work) { done_.fetch_add(work, std::memory_order_relaxed); }
+
+  /// What is done of what is known to be done in all, in [0, 1]; 0 while nothing is known. Never less than it
+  /// was, also when more turns out to be expected.
+  double share() const {
+    const auto all = expected_.load(std::memory_order_relaxed), done = done_.load(std::memory_order_relaxed);
+    const double now = all > 0 ? static_cast<double>(std::min(done, all)) / static_cast<double>(all) : 0;
+    double most = most_.load(std::memory_order_relaxed);
+    while (now > most && !most_.compare_exchange_weak(most, now, std::memory_order_relaxed)) {}
+    return std::max(now, most);
+  }
+
+private:
+  std::atomic<bool> cancelled_{false};
+  std::atomic<std::uint64_t> expected_{0}, done_{0};
+  mutable std::atomic<double> most_{0}; ///< that share() has told
+};
+
+/// A piece of some Progress's work, of one thread, that knows its own share. What is left when it ends counts
+/// as done.
+class ProgressPart {
+public:
+  /// `work` has been expected.
+  ProgressPart(Progress& whole, std::uint64_t work) : whole_(whole), work_(work) {}
+  ProgressPart(const ProgressPart&) = delete;
+  ProgressPart& operator=(const ProgressPart&) = delete;
+  ~ProgressPart() { whole_.advance(work_ - done_); }
+
+  bool cancelled() const { return whole_.cancelled(); }
+  void check() const { whole_.check(); }
+  /// Throws Cancelled if the work is to end. A share below an earlier one changes nothing.
+  void reach(double share) {
+    whole_.check();
+    const auto done = static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(work_));
+    if (done < done_ + work_ / 1024 + 1) return; // steps that nobody would see
+    whole_.advance(done - done_);
+    done_ = done;
+  }
+
+private:
+  Progress& whole_;
+  std::uint64_t work_, done_ = 0;
+};
+
+} // namespace candela

@@ -1,0 +1,142 @@
+// Geometry that takes long to build: how far it is, and that nobody waits for what is out of date.
+
+#include "session/render_session.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace candela {
+namespace {
+
+constexpr double kPatience = 120; // seconds before a wait counts as hanging
+
+Document small_document() {
+  test::SceneMaker s(16, 12, 1);
+  s.sphere(vec3(0), 1, s.diffuse(vec3(0.5f)));
+  s.constant_light(vec3(1));
+  s.camera({0, 0, 4}, vec3(0), 40);
+  return s.document;
+}
+
+/// Waves of 2 * side^2 triangles: built in the order of a second.
+Document large_document(unsigned side = 800) {
+  Mesh mesh;
+  for (unsigned i = 0; i <= side; ++i)
+    for (unsigned j = 0; j <= side; ++j) {
+      const vec2 p(static_cast<float>(i) / static_cast<float>(side),
+                   static_cast<float>(j) / static_cast<float>(side));
+      mesh.positions.emplace_back(2.0f * p - 1.0f, 0.1f * std::sin(20 * p.x) * std::cos(30 * p.y));
+    }
+  for (unsigned i = 0; i < side; ++i)
+    for (unsigned j = 0; j < side; ++j) {
+      const unsigned a = i * (side + 1) + j, b = a + side + 1;
+      mesh.triangles.emplace_back(a, b, b + 1);
+      mesh.triangles.emplace_back(a, b + 1, a + 1);
+    }
+  test::SceneMaker s(16, 12, 1);
+  s.mesh(std::move(mesh), s.diffuse(vec3(0.5f)));
+  s.constant_light(vec3(1));
+  s.camera({0, 0, 4}, vec3(0), 40);
+  return s.document;
+}
+
+template <class Condition>
+bool wait_until(Condition condition) {
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPatience);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > give_up) return false;
+    std::this_thread::yield();
+  }
+  return true;
+}
+
+/// Until the document handed in last is being built, far from its end.
+bool wait_for_building(const RenderSession& session, std::uint64_t generation) {
+  return wait_until([&] {
+    const SessionStatus status = session.status();
+    return status.generation == generation && status.phase == SessionPhase::building && status.built > 0;
+  });
+}
+
+TEST(SessionBuilding, ANewerDocumentEndsTheBuildingOfTheOneBefore) {
+  RenderSession session;
+  const Document small = small_document();
+  session.submit(small);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  const auto built = session.built();
+  ASSERT_TRUE(wait_for_building(session, session.submit(large_document())));
+  const std::uint64_t back = session.submit(small);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.status().builds_cancelled, 1u);
+  EXPECT_EQ(session.latest()->generation, back);
+  EXPECT_EQ(&session.built().scene->geometry(), &built.scene->geometry()) << "what was there was kept";
+  EXPECT_EQ(session.status().error, "");
+}
+
+TEST(SessionBuilding, TheFirstOneMayBeOutOfDateToo) {
+  RenderSession session;
+  ASSERT_TRUE(wait_for_building(session, session.submit(large_document())));
+  session.submit(small_document());
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.status().builds_cancelled, 1u);
+  EXPECT_EQ(session.built().scene->geometry().world().triangles.size(), 0u);
+}
+
+// Who flies through a scene that is being built would otherwise never see it.
+TEST(SessionBuilding, AnotherCameraLetsItGoOn) {
+  RenderSession session;
+  Document large = large_document();
+  ASSERT_TRUE(wait_for_building(session, session.submit(large)));
+  large.scene.camera.position.z = 5;
+  session.submit(large);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.status().builds_cancelled, 0u);
+}
+
+// A dragged object is shown at every place that a fast build can keep up with.
+TEST(SessionBuilding, ADragLetsItsFastBuildsGoOn) {
+  RenderSession session;
+  Document large = large_document();
+  ASSERT_TRUE(wait_for_building(session, session.submit(large, BuildQuality::fast)));
+  large.scene.instances[0].world_from_object[3].x += 0.1f;
+  session.submit(large, BuildQuality::fast);
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.status().builds_cancelled, 0u);
+  large.scene.instances[0].world_from_object[3].x += 0.1f;
+  ASSERT_TRUE(wait_for_building(session, session.submit(large, BuildQuality::fast)));
+  session.submit(small_document()); // no part of a drag
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.status().builds_cancelled, 1u);
+}
+
+TEST(SessionBuilding, ShareGrows) {
+  RenderSession session;
+  const std::uint64_t generation = session.submit(large_document(400));
+  double last = 0;
+  int steps = 0;
+  ASSERT_TRUE(wait_until([&] {
+    const SessionStatus status = session.status();
+    if (status.phase != SessionPhase::building || status.generation != generation) return status.spp > 0;
+    EXPECT_GE(status.built, last);
+    EXPECT_LE(status.built, 1);
+    steps += status.built > last;
+    last = status.built;
+    return false;
+  }));
+  EXPECT_GT(steps, 1);
+}
+
+TEST(SessionBuilding, WhoLeavesDoesNotWaitForIt) {
+  auto progress_seen = [](RenderSession& session) {
+    return wait_for_building(session, session.submit(large_document(400)));
+  };
+  auto session = std::make_unique<RenderSession>();
+  ASSERT_TRUE(progress_seen(*session));
+  session.reset(); // joins; under the sanitizers nothing is left behind
+}
+
+} // namespace
+} // namespace candela
