@@ -150,6 +150,15 @@ void EditHistory::observe(const EditState& now, bool edited, bool in_gesture) {
   trim();
 }
 
+std::optional<int> EditHistory::undos_to(const std::vector<Instance>& instances) const {
+  auto fits = [&](std::size_t i) { return entries_[i].state.document.scene.instances == instances; };
+  for (std::size_t i = cursor_ + 1; i-- > 0;)
+    if (fits(i)) return static_cast<int>(cursor_ - i);
+  for (std::size_t i = cursor_ + 1; i < entries_.size(); ++i)
+    if (fits(i)) return -static_cast<int>(i - cursor_);
+  return std::nullopt;
+}
+
 void EditHistory::trim() {
   std::size_t bytes = 0, kept = 0;
   std::set<const OpenScene*> scenes;

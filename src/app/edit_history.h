@@ -6,6 +6,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,14 @@ public:
   /// The state before (after) the present step. Only where there is one.
   const EditState& undo() { return entries_[--cursor_].state; }
   const EditState& redo() { return entries_[++cursor_].state; }
+  /// The nearest step whose scene has these instances: how many undos away it is, or, if there is none
+  /// before, minus how many redos.
+  std::optional<int> undos_to(const std::vector<Instance>& instances) const;
+  /// So many undos at once, as undos_to() counts them.
+  const EditState& undo_by(int undos) {
+    cursor_ = static_cast<std::size_t>(static_cast<int>(cursor_) - undos);
+    return entries_[cursor_].state;
+  }
   /// What undo() would take back and redo() would do again; empty if nothing.
   std::string undo_name() const { return can_undo() ? entries_[cursor_].name : ""; }
   std::string redo_name() const { return can_redo() ? entries_[cursor_ + 1].name : ""; }

@@ -107,16 +107,12 @@ void save_as(Ui& ui, ViewerState& state, Strips& strips, float width) {
   if ((entered || pressed) && !state.save_path.empty()) state.save_to = state.save_path;
 }
 
-/// A bar that runs without saying how far: what is left is not known.
-void working_bar(double seconds, float unit) {
+void working_bar(double share, float unit) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, height = 3 * unit;
-  const auto phase = static_cast<float>(std::fmod(seconds / 1.6, 1.0));
-  const float left = at.x + width * std::max(phase * 1.3f - 0.3f, 0.0f);
-  const float right = at.x + width * std::min(phase * 1.3f, 1.0f);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, ImVec2(at.x + width, at.y + height), ImGui::GetColorU32(ImGuiCol_FrameBg));
-  list.AddRectFilled(ImVec2(left, at.y), ImVec2(right, at.y + height),
+  list.AddRectFilled(at, ImVec2(at.x + width * static_cast<float>(share), at.y + height),
                      ImGui::GetColorU32(ImGuiCol_CheckMark));
   ImGui::Dummy(ImVec2(width, height));
 }
@@ -131,16 +127,17 @@ void message_strips(Ui& ui, ViewerState& state, vec2 position, float width) {
                         state.now - state.building_since > kQuietSeconds;
   if (reading || building)
     strips.strip("##working", kGrey, [&] {
-      const double seconds = state.now - (reading ? state.loading_since : state.building_since);
-      strips.text(fmt::format("{} {} … {:.0f} s", reading ? "Reading" : "Building the geometry of",
-                              reading ? state.loading_path : scene_title(state), seconds),
+      const double share = reading ? state.loaded : state.status.built;
+      strips.text(fmt::format("{} {} … {:.0f} %", reading ? "Reading" : "Building the geometry of",
+                              reading ? state.loading_path : scene_title(state), std::floor(100 * share)),
                   1);
       ui.record("working");
       if (reading && strips.button("working.cancel", "Cancel", "Keeps the scene that is shown (Esc)"))
         state.cancel_requested = true;
-      if (building && strips.button("working.undo", "Undo", "Back to what was before (Esc)"))
-        state.undo_requested = true;
-      working_bar(seconds, ui.scale());
+      if (building && state.may_stop_building &&
+          strips.button("working.cancel", "Cancel", "Back to what was before (Esc)"))
+        state.cancel_requested = true;
+      working_bar(share, ui.scale());
     });
   if (!state.error.empty())
     strips.strip("##error", kRed, [&] {

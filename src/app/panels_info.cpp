@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace candela {
 
@@ -138,7 +139,9 @@ void status_line(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
     cell(si(per_second(status.rays.samples, status.render_seconds)) + " samples/s", 138);
     std::string talk = state.notice;
     if (state.reading)
-      talk = fmt::format("loading {} …", std::filesystem::path(state.loading_path).filename().string());
+      talk =
+          fmt::format("loading {} … {:.0f} %", std::filesystem::path(state.loading_path).filename().string(),
+                      std::floor(100 * state.loaded));
     else if (talk.empty())
       talk = scene_title(state) + (state.modified ? "*" : "");
     if (state.picture && state.picture->denoised)

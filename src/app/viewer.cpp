@@ -80,7 +80,7 @@ Viewer::Viewer(const Gl& gl, ViewerOptions options)
 }
 
 Viewer::~Viewer() {
-  reading_.request_stop();
+  reading_->cancel();
   write_preferences_if_changed();
   ImGui::DestroyContext(imgui_);
 }
@@ -108,8 +108,13 @@ void Viewer::frame(double now) {
   if (state_.status.phase != SessionPhase::building || drawn_phase_ != SessionPhase::building)
     state_.building_since = now;
   drawn_phase_ = state_.status.phase;
+  state_.may_stop_building = false;
+  if (drawn_phase_ == SessionPhase::building)
+    if (const auto shown = session_->built().document)
+      state_.may_stop_building = history_.undos_to(shown->scene.instances).value_or(0) != 0;
   state_.now = now;
   state_.loading = reader_.pending();
+  state_.loaded = reading_->share();
   if (now > notice_until_) state_.notice.clear();
   if (state_.status.phase == SessionPhase::failed && failed_generation_ != state_.status.submitted) {
     failed_generation_ = state_.status.submitted;

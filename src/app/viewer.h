@@ -139,6 +139,7 @@ private:
   void open_scene(const std::string& path, bool reload);
   void finish_opening(const std::string& path, LoadedScene& loaded, const Bounds3& bounds, bool reload);
   void cancel_opening();
+  void cancel_building();
   void look_for_changes();
   bool is_bundled(const std::string& path) const;
   void save_scene();
@@ -221,7 +222,7 @@ private:
   bool wants_close_ = false;
   std::uint64_t failed_generation_ = 0; // whose error was shown already
   std::uint64_t open_requests_ = 0;
-  std::stop_source reading_;
+  std::shared_ptr<Progress> reading_ = std::make_shared<Progress>();
   bool quit_after_save_ = false;
   Preferences preferences_, written_preferences_;
 

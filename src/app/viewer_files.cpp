@@ -43,12 +43,14 @@ std::string opened_text(const char* verb, const std::string& path, std::size_t w
 }
 
 /// The picture at the path, unless it is none or holds a scene.
-std::shared_ptr<const Panorama> panorama_without_scene(const std::string& path) {
+std::shared_ptr<const Panorama> panorama_without_scene(const std::string& path,
+                                                       std::shared_ptr<Progress> progress) {
   if (!is_image_name(path)) return nullptr;
   if (const std::string ending = lower_ending(path);
       (ending == ".png" || ending == ".exr") && holds_picture_state(path))
     return nullptr;
-  WarningList corrections; // of values that no light has: nothing that the user could mend
+  WarningList corrections(
+      std::move(progress)); // of values that no light has: nothing that the user could mend
   return read_panorama(std::span(&path, 1), corrections);
 }
 
@@ -62,19 +64,19 @@ void Viewer::light_with(std::shared_ptr<const Panorama> panorama) {
 }
 
 void Viewer::open_scene(const std::string& path, bool reload) {
-  reading_.request_stop(); // the newest wish counts
-  reading_ = std::stop_source();
+  reading_->cancel(); // the newest wish counts
+  reading_ = std::make_shared<Progress>();
   state_.loading_path = path;
   state_.loading_since = now_;
   if (!reload && !is_image_name(path)) state_.path_input = path; // a panorama's name stands in its light
   const std::uint64_t request = ++open_requests_;
   state_.reading = true;
   ReadOptions options = options_.reading;
-  options.stop = reading_.get_token();
+  options.progress = reading_;
   reader_.post([this, path, request, reload, options]() -> TaskThread::Completion {
     std::string problem;
     try {
-      if (auto panorama = panorama_without_scene(path))
+      if (auto panorama = panorama_without_scene(path, options.progress))
         return [this, path, request, panorama] {
           if (request != open_requests_) return;
           state_.reading = false;
@@ -151,10 +153,21 @@ void Viewer::show_state(const EditState& edit) {
 /// Gives up reading; the scene that is shown stays.
 void Viewer::cancel_opening() {
   if (!state_.reading) return;
-  reading_.request_stop();
+  reading_->cancel();
   ++open_requests_;
   state_.reading = false;
   notify(fmt::format("Gave up opening {}", state_.loading_path));
+}
+
+/// Takes back the edits whose geometry is being built; redo has them.
+void Viewer::cancel_building() {
+  const RenderSession::Built shown = session_->built();
+  if (state_.status.phase != SessionPhase::building || !shown.document) return;
+  history_.observe(edit_state(), state_.edited, false); // also what would not be a step yet
+  const auto undos = history_.undos_to(shown.document->scene.instances);
+  if (undos.value_or(0) == 0) return;
+  show_state(history_.undo_by(*undos));
+  notify("Gave up building: redo takes it up again");
 }
 
 void Viewer::look_for_changes() {
@@ -234,7 +247,7 @@ void Viewer::serve_file_requests() {
     save_shown_picture();
     state_.save_requested = false;
   }
-  if (state_.cancel_requested) cancel_opening();
+  if (state_.cancel_requested) state_.reading ? cancel_opening() : cancel_building();
   if (state_.open_path) open_scene(*state_.open_path, false);
   if (state_.reload_requested) open_scene(scene_->path, true);
   if (state_.save_scene_requested) save_scene();

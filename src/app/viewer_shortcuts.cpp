@@ -93,8 +93,8 @@ void Viewer::escape() {
     cancel_gesture();
   else if (state_.reading)
     state_.cancel_requested = true;
-  else if (state_.status.phase == SessionPhase::building && state_.now - state_.building_since > 1)
-    state_.undo_requested = true; // what is being built takes long: back to what was
+  else if (state_.may_stop_building && state_.now - state_.building_since > 1)
+    state_.cancel_requested = true; // what is being built takes long: back to what was
   else if (state_.question != Question::none)
     state_.question = Question::none;
   else if (state_.save_as_visible)

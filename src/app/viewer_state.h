@@ -51,6 +51,8 @@ struct ViewerState {
   bool reading = false; ///< a scene that will be shown
   double now = 0;       ///< the window's clock, seconds
   double loading_since = 0, building_since = 0;
+  double loaded = 0;              ///< 0..1: how far reading is
+  bool may_stop_building = false; ///< the history has what is shown
 
   std::string error;                 ///< shown in a strip until dismissed; empty: none
   std::vector<std::string> warnings; ///< of the scene
@@ -95,7 +97,7 @@ struct ViewerState {
   bool close_requested = false;
   bool save_and_quit_requested = false;
   bool reload_requested = false;
-  bool cancel_requested = false; ///< of the scene that is being read
+  bool cancel_requested = false; ///< of the scene that is being read, or built
   std::optional<std::string> save_to;
   bool undo_requested = false;
   bool redo_requested = false;

@@ -19,8 +19,9 @@ constexpr std::size_t kMaxJsonBytes = std::size_t{512} << 20;
 
 class CandelaReader {
 public:
-  CandelaReader(std::string text, const std::string& shown, const PathPolicy& policy, WarningList& warnings)
-      : folder_(folder_of(shown)), tree_(shown, std::move(text)),
+  CandelaReader(std::string text, const FoundFile& file, const PathPolicy& policy, WarningList& warnings)
+      : folder_(folder_of(file.shown)), progress_(warnings.part(file.canonical, text.size())),
+        tree_(file.shown, std::move(text), &progress_, kTreeShare),
         builder_(document_.scene, policy, MtlDialect::standard, warnings) {}
 
   Document run() {
@@ -41,6 +42,7 @@ public:
       expect(it->second, JsonType::string, "description");
       document_.scene.description = it->second.string();
     }
+    expect_files(root);
     // What is referred to comes first, whatever the order in the file.
     auto read = [&](const char* key, void (CandelaReader::*reader)(JsonValue)) {
       if (auto it = parts.find(key); it != parts.end()) (this->*reader)(it->second);
@@ -62,6 +64,32 @@ private:
     std::shared_ptr<const Mesh> mesh;
     MeshFile* file = nullptr;
   };
+
+  /// Counts what will be read.
+  void expect_files(JsonValue value) {
+    auto expect_named = [&](JsonValue name) {
+      if (name.type() == JsonType::string) builder_.expect_file(name.string(), folder_);
+    };
+    if (value.type() == JsonType::object) {
+      for (auto [key, part] : value.members()) {
+        if (key.string() == "file" || key.string() == "diffuse_texture")
+          expect_named(part);
+        else if (key.string() == "files" && part.type() == JsonType::array)
+          for (JsonValue name : part) expect_named(name);
+        else
+          expect_files(part);
+      }
+    } else if (value.type() == JsonType::array) {
+      for (JsonValue part : value)
+        if (part.type() == JsonType::object) expect_files(part);
+    }
+  }
+
+  /// To be called for each part of the file that may be one of many, or large.
+  void reach(JsonValue value) {
+    progress_.reach(kTreeShare + (1 - kTreeShare) * static_cast<double>(value.offset()) /
+                                     static_cast<double>(tree_.size()));
+  }
 
   void settings(JsonValue object) { settings_below(object, "settings", ""); }
 
@@ -101,6 +129,7 @@ private:
     expect(array, JsonType::array, element);
     int index = 0;
     for (JsonValue object : array) {
+      reach(object);
       std::string name = fmt::format("{}[{}]", element, index++);
       expect(object, JsonType::object, name);
       visit(object, name);
@@ -109,7 +138,7 @@ private:
 
   void textures(JsonValue array) {
     each_object(array, "textures", [&](JsonValue object, const std::string& element) {
-      JsonTexture texture = read_json_texture(object, element);
+      JsonTexture texture = read_json_texture(object, element, builder_.warnings());
       if (texture.file) {
         std::string name = element + ".file";
         builder_.append_texture(builder_.policy().require(read_string(*texture.file, name), folder_,
@@ -156,7 +185,7 @@ private:
   void meshes(JsonValue object) {
     expect(object, JsonType::object, "meshes");
     for (auto [key, value] : object.members()) {
-      builder_.warnings().check_stop();
+      reach(value);
       std::string element = fmt::format("meshes.{}", key.string().substr(0, 60));
       expect(value, JsonType::object, element);
       std::string name = key.string();
@@ -166,7 +195,8 @@ private:
         if (part_key.string() == "file") file = part_value;
       }
       if (!file) {
-        meshes_[key.string()] = {std::make_shared<const Mesh>(read_json_mesh(value, name, element)), nullptr};
+        meshes_[key.string()] = {
+            std::make_shared<const Mesh>(read_json_mesh(value, name, element, builder_.warnings())), nullptr};
         continue;
       }
       constexpr std::string_view kKeys[] = {"file", "name"};
@@ -332,7 +362,11 @@ private:
 
   static constexpr int kAmbiguous = -2;
 
+  /// Of the time that a file takes, that of its syntax.
+  static constexpr double kTreeShare = 0.7;
+
   std::string folder_;
+  ProgressPart progress_;
   JsonTree tree_;
   Document document_;
   SceneBuilder builder_;
@@ -344,13 +378,13 @@ private:
 } // namespace
 
 Document read_candela_json(const FoundFile& file, const PathPolicy& policy, WarningList& warnings) {
-  return parse_candela_json(read_text_file(file.canonical, "scene", kMaxJsonBytes), file.shown, policy,
-                            warnings);
+  warnings.check_stop();
+  return CandelaReader(read_text_file(file.canonical, "scene", kMaxJsonBytes), file, policy, warnings).run();
 }
 
 Document parse_candela_json(std::string text, const std::string& shown, const PathPolicy& policy,
                             WarningList& warnings) {
-  return CandelaReader(std::move(text), shown, policy, warnings).run();
+  return CandelaReader(std::move(text), {shown, shown}, policy, warnings).run();
 }
 
 } // namespace candela

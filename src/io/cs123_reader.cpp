@@ -20,6 +20,8 @@ using glm::dvec3;
 constexpr std::size_t kMaxXmlBytes = std::size_t{64} << 20;
 constexpr int kMaxDepth = 64;
 constexpr std::size_t kMaxInstances = 1'000'000;
+/// Of the time that the file takes, that of its syntax.
+constexpr double kSyntaxShare = 0.5;
 constexpr std::size_t kMaxTransblocks = 4'000'000;
 
 struct Cs123Shape {
@@ -44,10 +46,13 @@ public:
   Cs123Reader(const FoundFile& file, const PathPolicy& policy, WarningList& warnings)
       : file_(file), folder_(folder_of(file.shown)),
         text_(read_text_file(file.canonical, "scene", kMaxXmlBytes)), places_(file.shown, text_),
-        values_(places_, warnings), builder_(document_.scene, policy, MtlDialect::cs123, warnings) {}
+        progress_(warnings.part(file.canonical, text_.size())), values_(places_, warnings),
+        builder_(document_.scene, policy, MtlDialect::cs123, warnings) {}
 
   Document run() {
     pugi::xml_node scene = parse();
+    expect_files(scene, 0);
+    progress_.reach(kSyntaxShare);
     Camera& camera = document_.scene.camera;
     camera.position = vec3(5), camera.target = vec3(4), camera.vertical_fov = radians(45.0f);
     for (pugi::xml_node part : scene.children()) {
@@ -87,6 +92,14 @@ private:
                         "give a file with <scenefile>");
     }
     return scene;
+  }
+
+  /// Counts what will be read.
+  void expect_files(pugi::xml_node node, int depth) {
+    if (depth > 3 * kMaxDepth) return; // refused later
+    for (const char* key : {"filename", "file"})
+      if (auto name = node.attribute(key)) builder_.expect_file(name.value(), folder_);
+    for (pugi::xml_node child : node.children()) expect_files(child, depth + 1);
   }
 
   void global_data(pugi::xml_node data) {
@@ -178,6 +191,7 @@ private:
   }
 
   void transblock(pugi::xml_node block, dmat4 m, int depth) {
+    values_.warnings().check_stop();
     if (++transblocks_ > kMaxTransblocks)
       throw limit_error(places_.element(block), "transblock",
                         fmt::format("more than {} of them", kMaxTransblocks), "nest fewer master objects");
@@ -326,6 +340,7 @@ private:
   std::string folder_;
   std::string text_;
   XmlPlaces places_;
+  ProgressPart progress_;
   Cs123Values values_;
   pugi::xml_document xml_;
   Document document_;

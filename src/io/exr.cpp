@@ -163,10 +163,12 @@ void check_plausible(const Imf::Header& header, std::size_t bytes, std::int64_t 
     throw damaged_image(where, "the EXR is too short for the size it claims");
 }
 
-void read_luminance_chroma(Imf::IStream& stream, Image& image, const Imath::Box2i& window) {
+void read_luminance_chroma(Imf::IStream& stream, Image& image, const Imath::Box2i& window,
+                           ProgressPart* progress) {
   Imf::RgbaInputFile file(stream);
   std::vector<Imf::Rgba> row(static_cast<std::size_t>(image.width));
   for (int y = 0; y < image.height; ++y) {
+    if (progress) progress->reach(static_cast<double>(y) / image.height);
     // The library wants the address that pixel (0, 0) would have; stride 0 keeps every row in this one.
     file.setFrameBuffer(row.data() - window.min.x, 1, 0);
     file.readPixels(window.min.y + y);
@@ -178,7 +180,7 @@ void read_luminance_chroma(Imf::IStream& stream, Image& image, const Imath::Box2
 }
 
 void read_channels(Imf::InputFile& file, Image& image, const ColorChannels& channels,
-                   const Imath::Box2i& window) {
+                   const Imath::Box2i& window, ProgressPart* progress) {
   Imf::FrameBuffer frame;
   std::size_t row = sizeof(vec3) * static_cast<std::size_t>(image.width);
   auto insert = [&](const std::string& name, int component) {
@@ -189,12 +191,17 @@ void read_channels(Imf::InputFile& file, Image& image, const ColorChannels& chan
   if (channels.g != channels.r) insert(channels.g, 1);
   if (channels.b != channels.r) insert(channels.b, 2);
   file.setFrameBuffer(frame);
-  file.readPixels(window.min.y, window.max.y);
+  // Bands, of whole blocks of any compression and of whole tiles: the library decodes those once for a call.
+  constexpr int kBand = 256;
+  for (int y = 0; y < image.height; y += kBand) {
+    if (progress) progress->reach(static_cast<double>(y) / image.height);
+    file.readPixels(window.min.y + y, window.min.y + std::min(y + kBand, image.height) - 1);
+  }
   if (!channels.r.empty() && channels.g == channels.r)
     for (vec3& pixel : image.pixels) pixel = vec3(pixel.x);
 }
 
-Image decode(ByteView bytes, const Location& where) {
+Image decode(ByteView bytes, const Location& where, ProgressPart* progress) {
   MemoryInput stream(bytes, where.file);
   Imf::InputFile file(stream);
   const Imf::Header& header = file.header();
@@ -211,9 +218,9 @@ Image decode(ByteView bytes, const Location& where) {
               std::vector<vec3>(static_cast<std::size_t>(width * height), vec3(0))};
   if (channels.luminance_chroma) {
     stream.seekg(0);
-    read_luminance_chroma(stream, image, window);
+    read_luminance_chroma(stream, image, window, progress);
   } else {
-    read_channels(file, image, channels, window);
+    read_channels(file, image, channels, window, progress);
   }
   to_rec709(image, header, where);
   return image;
@@ -229,7 +236,9 @@ auto guarded(Work work, const Location& where) {
   });
   try {
     return work();
-  } catch (const Error&) { throw; } catch (const std::bad_alloc&) {
+  } catch (const Error&) { throw; } catch (const Cancelled&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& problem) { // Iex has many kinds, and all mean the same here
     throw damaged_image(where, fmt::format("it is no valid EXR ({})", problem.what()));
@@ -242,8 +251,8 @@ bool is_exr(ByteView bytes) {
   return bytes.size() >= 4 && bytes[0] == 0x76 && bytes[1] == 0x2f && bytes[2] == 0x31 && bytes[3] == 0x01;
 }
 
-Image decode_exr(ByteView bytes, const Location& where) {
-  return guarded([&] { return decode(bytes, where); }, where);
+Image decode_exr(ByteView bytes, const Location& where, ProgressPart* progress) {
+  return guarded([&] { return decode(bytes, where, progress); }, where);
 }
 
 std::optional<std::string> exr_text(ByteView bytes, const std::string& name, const Location& where) {

@@ -138,7 +138,7 @@ std::array<double, 3> parse_numbers(std::string_view text, std::size_t count, co
 
 bool is_hdr(ByteView bytes) { return bytes.size() >= 2 && bytes[0] == '#' && bytes[1] == '?'; }
 
-Image decode_hdr(ByteView bytes, const Location& where) {
+Image decode_hdr(ByteView bytes, const Location& where, ProgressPart* progress) {
   Cursor in{bytes, where};
   in.line();
   std::array<double, 3> divisor{1, 1, 1};
@@ -168,6 +168,7 @@ Image decode_hdr(ByteView bytes, const Location& where) {
       std::vector<vec3>(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height))};
   std::vector<Rgbe> row(static_cast<std::size_t>(length));
   for (int j = 0; j < lines; ++j) {
+    if (progress) progress->reach(static_cast<double>(j) / lines);
     if (in.starts_new_rle(length))
       read_new_rle(in, row, where);
     else

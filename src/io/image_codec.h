@@ -1,13 +1,15 @@
 #pragma once
 // What the image formats of this folder have in common, and their entry points.
-// Only image_file.cpp and texture_reader.cpp use these; everybody else goes
-// through image_file.h and texture_reader.h.
+// Only image_file.cpp, texture_reader.cpp and panorama_reader.cpp use these;
+// everybody else goes through their headers.
 //
 // Decoders take the whole file; they throw input_error for what is damaged and
 // limit_error for what is too large, located at `where`, before they allocate
-// pixels.
+// pixels. Those that may take long are told of by `progress`, which may be null,
+// and end with Cancelled when it says so.
 
 #include "core/error.h"
+#include "core/progress.h"
 #include "io/file_bytes.h"
 #include "io/image_file.h"
 #include "scene/mesh.h"
@@ -40,7 +42,7 @@ struct Picture8 {
 };
 
 // image_file.cpp: the format is known by its signature.
-Image decode_image(ByteView bytes, const Location& where);
+Image decode_image(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
 
 /// The linear picture.
 Image linear_image(const Picture8& picture);
@@ -68,7 +70,7 @@ std::optional<std::string> png_text(ByteView bytes, std::string_view name, const
 // jpg.cpp: JPEG, grey and colour; written with quality 95 and colour in full
 // resolution.
 bool is_jpg(ByteView bytes);
-Picture8 decode_jpg(ByteView bytes, const Location& where);
+Picture8 decode_jpg(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
 /// `path` is for messages: output_error for what the format cannot hold (sides
 /// above 65500).
 Bytes encode_jpg(int width, int height, ByteView rgb, const std::string& path);
@@ -81,7 +83,7 @@ Bytes encode_ppm(int width, int height, ByteView rgb);
 
 // exr.cpp: OpenEXR, flat parts, any compression; written as 32-bit float, ZIP.
 bool is_exr(ByteView bytes);
-Image decode_exr(ByteView bytes, const Location& where);
+Image decode_exr(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
 /// The string attribute of that name; nothing if there is none.
 std::optional<std::string> exr_text(ByteView bytes, const std::string& name, const Location& where);
 /// `path` is for messages.
@@ -89,7 +91,7 @@ Bytes encode_exr(const Image& image, const std::string& path, const ImageMetadat
 
 // hdr.cpp: Radiance RGBE.
 bool is_hdr(ByteView bytes);
-Image decode_hdr(ByteView bytes, const Location& where);
+Image decode_hdr(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
 Bytes encode_hdr(const Image& image, const ImageMetadata& metadata);
 
 // pfm.cpp: portable float map, colour and grey, either byte order.

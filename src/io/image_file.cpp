@@ -64,11 +64,11 @@ bool is_image_name(std::string_view path) {
          std::ranges::find(kOnlyRead, ending) != std::end(kOnlyRead);
 }
 
-Image decode_image(ByteView bytes, const Location& where) {
+Image decode_image(ByteView bytes, const Location& where, ProgressPart* progress) {
   if (is_stb_format(bytes)) return decode_stb(bytes, where);
-  if (is_jpg(bytes)) return linear_image(decode_jpg(bytes, where));
-  if (is_exr(bytes)) return decode_exr(bytes, where);
-  if (is_hdr(bytes)) return decode_hdr(bytes, where);
+  if (is_jpg(bytes)) return linear_image(decode_jpg(bytes, where, progress));
+  if (is_exr(bytes)) return decode_exr(bytes, where, progress);
+  if (is_hdr(bytes)) return decode_hdr(bytes, where, progress);
   if (is_pfm(bytes)) return decode_pfm(bytes, where);
   if (is_pnm(bytes)) return decode_pnm(bytes, where);
   throw input_error(where, "image",

@@ -57,10 +57,17 @@ void init_errors(ErrorState& state) {
   state.output_message = [](j_common_ptr) {};
 }
 
-void count_scans(j_common_ptr codec) {
+struct DecoderProgress : jpeg_progress_mgr {
+  ProgressPart* whole = nullptr;
+};
+
+/// Called again and again by the decoder. A progressive file is decoded before its first line comes out.
+void watch_decoder(j_common_ptr codec) {
   auto* decoder = reinterpret_cast<j_decompress_ptr>(codec);
-  if (decoder->input_scan_number <= kMaxScans) return;
   ErrorState& state = state_of(codec);
+  const ProgressPart* whole = static_cast<DecoderProgress*>(codec->progress)->whole;
+  if (whole && whole->cancelled()) std::longjmp(state.escape, 1);
+  if (decoder->input_scan_number <= kMaxScans) return;
   std::snprintf(state.message, sizeof state.message, "more than %d scans", kMaxScans);
   std::longjmp(state.escape, 1);
 }
@@ -68,11 +75,12 @@ void count_scans(j_common_ptr codec) {
 struct Decoder {
   jpeg_decompress_struct codec{};
   ErrorState errors;
-  jpeg_progress_mgr progress{};
-  Decoder() {
+  DecoderProgress progress{};
+  explicit Decoder(ProgressPart* whole) {
     init_errors(errors);
     codec.err = &errors;
-    progress.progress_monitor = count_scans;
+    progress.progress_monitor = watch_decoder;
+    progress.whole = whole;
   }
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
@@ -94,6 +102,8 @@ bool read_pixels(Decoder& d, std::uint8_t* rgb) {
   jpeg_start_decompress(&d.codec);
   std::size_t row = std::size_t{d.codec.output_width} * 3;
   while (d.codec.output_scanline < d.codec.output_height) {
+    if (d.progress.whole)
+      d.progress.whole->reach(static_cast<double>(d.codec.output_scanline) / d.codec.output_height);
     JSAMPROW line = rgb + row * d.codec.output_scanline;
     jpeg_read_scanlines(&d.codec, &line, 1);
   }
@@ -147,9 +157,10 @@ bool is_jpg(ByteView bytes) {
   return bytes.size() >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
 
-Picture8 decode_jpg(ByteView bytes, const Location& where) {
-  Decoder decoder;
+Picture8 decode_jpg(ByteView bytes, const Location& where, ProgressPart* progress) {
+  Decoder decoder(progress);
   auto damaged = [&] {
+    if (progress) progress->check();
     return damaged_image(where, fmt::format("it cannot be decoded ({})", decoder.errors.message));
   };
   if (!read_header(decoder, bytes)) throw damaged();

@@ -9,7 +9,8 @@ namespace candela {
 
 namespace {
 
-std::shared_ptr<const Panorama> read_inline(JsonValue object, const std::string& element) {
+std::shared_ptr<const Panorama> read_inline(JsonValue object, const std::string& element,
+                                            const WarningList& warnings) {
   constexpr std::string_view kKeys[] = {"name", "width", "height", "pixels"};
   constexpr int kMaxSide = 65536;
   auto panorama = std::make_shared<Panorama>();
@@ -37,6 +38,7 @@ std::shared_ptr<const Panorama> read_inline(JsonValue object, const std::string&
   image.pixels.reserve(due / 3);
   int channel = 0;
   for (JsonValue value : *pixels) {
+    warnings.check_stop();
     float v = read_real(value, name);
     if (v < 0) throw input_error(value.where(), name, fmt::format("{} is negative", v), "give radiances");
     if (channel == 0) image.pixels.emplace_back(0);
@@ -81,7 +83,7 @@ LightDesc read_json_light(JsonValue object, const std::string& element, SceneBui
       else if (key.string() == "files")
         files = key, light.panorama = builder.panorama(read_faces(value, name, builder.policy(), folder));
       else
-        light.panorama = read_inline(value, name);
+        light.panorama = read_inline(value, name, builder.warnings());
     } else if (read_row(light_fields(), light, key, value, element)) {
       if (key.string() == "mapping") mapping = value;
     } else {

@@ -14,11 +14,12 @@ constexpr int kMaxIndex = std::numeric_limits<int>::max();
 
 /// Reads an array of arrays of N floats.
 template <class Vec, int N>
-std::vector<Vec> read_vectors(JsonValue value, std::string_view element) {
+std::vector<Vec> read_vectors(JsonValue value, std::string_view element, const WarningList& warnings) {
   expect(value, JsonType::array, element);
   std::vector<Vec> out;
   out.reserve(value.size());
   for (JsonValue part : value) {
+    warnings.check_stop();
     float v[N];
     read_reals(part, v, element);
     Vec vector;
@@ -28,12 +29,14 @@ std::vector<Vec> read_vectors(JsonValue value, std::string_view element) {
   return out;
 }
 
-std::vector<uvec3> read_triangles(JsonValue value, std::size_t vertices, std::string_view element) {
+std::vector<uvec3> read_triangles(JsonValue value, std::size_t vertices, std::string_view element,
+                                  const WarningList& warnings) {
   expect(value, JsonType::array, element);
   std::vector<uvec3> out;
   out.reserve(value.size());
   int last = static_cast<int>(std::min<std::size_t>(vertices, kMaxIndex)) - 1;
   for (JsonValue part : value) {
+    warnings.check_stop();
     expect(part, JsonType::array, element);
     if (part.size() != 3)
       throw input_error(part.where(), element, fmt::format("{} corners", part.size()), "give three indices");
@@ -63,7 +66,8 @@ void make_unit(std::vector<vec3>& normals) {
 
 } // namespace
 
-Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view element) {
+Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view element,
+                    const WarningList& warnings) {
   constexpr std::string_view kKeys[] = {"name", "positions",      "triangles", "normals",
                                         "uvs",  "material_slots", "slots",     "source"};
   Mesh mesh;
@@ -73,16 +77,16 @@ Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view 
   for (auto [key, value] : object.members()) {
     std::string where = fmt::format("{}.{}", element, key.string());
     if (key.string() == "positions") {
-      mesh.positions = read_vectors<vec3, 3>(value, where);
+      mesh.positions = read_vectors<vec3, 3>(value, where, warnings);
     } else if (key.string() == "triangles") {
       triangles = value;
     } else if (key.string() == "normals") {
       normals = value;
-      mesh.normals = read_vectors<vec3, 3>(value, where);
+      mesh.normals = read_vectors<vec3, 3>(value, where, warnings);
       make_unit(mesh.normals);
     } else if (key.string() == "uvs") {
       uvs = value;
-      mesh.uvs = read_vectors<vec2, 2>(value, where);
+      mesh.uvs = read_vectors<vec2, 2>(value, where, warnings);
     } else if (key.string() == "material_slots") {
       slots = value;
     } else if (key.string() == "slots") {
@@ -100,7 +104,8 @@ Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view 
   if (!triangles || triangles->type() != JsonType::array || triangles->size() == 0)
     throw input_error((triangles ? *triangles : object).where(), element, "it has no triangles",
                       "give \"positions\" and \"triangles\", or a \"file\"");
-  mesh.triangles = read_triangles(*triangles, mesh.positions.size(), fmt::format("{}.triangles", element));
+  mesh.triangles =
+      read_triangles(*triangles, mesh.positions.size(), fmt::format("{}.triangles", element), warnings);
   if (normals && !mesh.normals.empty())
     check_count(*normals, mesh.positions.size(), fmt::format("{}.normals", element), "positions");
   if (uvs && !mesh.uvs.empty())

@@ -6,7 +6,7 @@
 
 namespace candela {
 
-JsonTexture read_json_texture(JsonValue object, std::string_view element) {
+JsonTexture read_json_texture(JsonValue object, std::string_view element, const WarningList& warnings) {
   constexpr std::string_view kKeys[] = {"file", "name", "width", "height", "srgb"};
   constexpr int kMaxSide = 65536;
   JsonTexture out;
@@ -34,8 +34,10 @@ JsonTexture read_json_texture(JsonValue object, std::string_view element) {
                       "give a \"file\", or width, height and 3 width height bytes as \"srgb\"");
   std::string name = fmt::format("{}.srgb", element);
   picture->srgb.reserve(bytes);
-  for (JsonValue byte : *srgb)
+  for (JsonValue byte : *srgb) {
+    warnings.check_stop();
     picture->srgb.push_back(static_cast<std::uint8_t>(read_integer(byte, name, 0, 255)));
+  }
   out.inline_picture = std::move(picture);
   return out;
 }

@@ -2,6 +2,7 @@
 // Entries of "textures" in Candela JSON.
 
 #include "io/json_tree.h"
+#include "io/warning_list.h"
 #include "scene/mesh.h"
 
 #include <memory>
@@ -17,7 +18,8 @@ struct JsonTexture {
 };
 
 /// Reads {"file": …} or {"name", "width", "height", "srgb": [bytes]}. Throws input_error.
-JsonTexture read_json_texture(JsonValue object, std::string_view element);
+/// Told to stop, it throws Cancelled.
+JsonTexture read_json_texture(JsonValue object, std::string_view element, const WarningList& warnings);
 
 /// The object of a picture that came from no file.
 std::string json_texture(const Texture& texture);

@@ -64,7 +64,9 @@ constexpr std::size_t kMaxNodes = std::size_t{1} << 25;
 /// the first character, after the token before, that is neither space nor a separator.
 class JsonTreeBuilder {
 public:
-  explicit JsonTreeBuilder(JsonTree& tree) : tree_(tree), text_(tree.text_) {}
+  JsonTreeBuilder(JsonTree& tree, ProgressPart* progress, double share)
+      : tree_(tree), text_(tree.text_), progress_(progress),
+        share_of_byte_(share / static_cast<double>(text_.size() + 1)) {}
 
   // The interface that nlohmann::json::sax_parse asks for.
   bool null() { return leaf(JsonType::null); }
@@ -128,6 +130,7 @@ private:
     if (!open_.empty() && tree_.nodes_[open_.back()].type == JsonType::array)
       ++tree_.nodes_[open_.back()].value;
     cursor_ = token_end(text_, start);
+    if (progress_) progress_->reach(share_of_byte_ * static_cast<double>(cursor_));
     auto index = static_cast<std::uint32_t>(tree_.nodes_.size());
     tree_.nodes_.push_back({static_cast<std::uint32_t>(start), index + 1, 0, type});
     return tree_.nodes_.back();
@@ -158,19 +161,23 @@ private:
 
   JsonTree& tree_;
   std::string_view text_;
+  ProgressPart* progress_;
+  double share_of_byte_;
   std::size_t cursor_ = 0; ///< one past the last token
   std::vector<std::uint32_t> open_;
   std::vector<std::unordered_set<std::string>> keys_; ///< of each open object
 };
 
-JsonTree::JsonTree(std::string file, std::string text) : file_(std::move(file)), text_(std::move(text)) {
-  JsonTreeBuilder builder(*this);
+JsonTree::JsonTree(std::string file, std::string text, ProgressPart* progress, double share)
+    : file_(std::move(file)), text_(std::move(text)) {
+  JsonTreeBuilder builder(*this, progress, share);
   nlohmann::json::sax_parse(text_.begin(), text_.end(), &builder, nlohmann::json::input_format_t::json,
                             /*strict=*/true, /*ignore_comments=*/true);
 }
 
 JsonType JsonValue::type() const { return tree_->nodes_[node_].type; }
-Location JsonValue::where() const { return locate(tree_->file_, tree_->text_, tree_->nodes_[node_].offset); }
+std::size_t JsonValue::offset() const { return tree_->nodes_[node_].offset; }
+Location JsonValue::where() const { return locate(tree_->file_, tree_->text_, offset()); }
 std::string_view JsonValue::token() const {
   std::size_t start = tree_->nodes_[node_].offset;
   return std::string_view(tree_->text_).substr(start, token_end(tree_->text_, start) - start);

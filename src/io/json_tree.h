@@ -2,6 +2,7 @@
 // A JSON text as a tree in which every token knows its place, so that an error can point at it.
 
 #include "core/error.h"
+#include "core/progress.h"
 
 #include <cstdint>
 #include <string>
@@ -21,6 +22,7 @@ public:
 
   JsonType type() const;
   Location where() const;         ///< of its first character
+  std::size_t offset() const;     ///< the same, in bytes from the start of the file
   std::string_view token() const; ///< as it stands in the file; of an array or object the bracket alone
   bool boolean() const { return token() == "true"; }
   const std::string& string() const; ///< unescaped; of strings only
@@ -59,11 +61,13 @@ struct JsonValue::Member {
 class JsonTree {
 public:
   /// Parses RFC 8259 JSON; comments (// and /* */) count as space. Throws input_error for syntax errors and
-  /// duplicate keys, limit_error for more than 64 levels or 2^25 values.
-  JsonTree(std::string file, std::string text);
+  /// duplicate keys, limit_error for more than 64 levels or 2^25 values. Parsing is the part [0, share] of
+  /// `progress`, if there is one, and ends with Cancelled when that says so.
+  JsonTree(std::string file, std::string text, ProgressPart* progress = nullptr, double share = 1);
 
   JsonValue root() const { return {*this, 0}; }
   const std::string& file() const { return file_; }
+  std::size_t size() const { return text_.size(); } ///< bytes
 
 private:
   friend class JsonValue;

@@ -13,8 +13,10 @@ std::string shortened(std::string_view word) { return std::string(word.substr(0,
 
 } // namespace
 
-ObjLines::ObjLines(std::string file, std::string& text, WarningList& warnings)
-    : file_(std::move(file)), text_(text), warnings_(warnings) {
+ObjLines::ObjLines(std::string file, std::string& text, WarningList& warnings, ProgressPart& progress,
+                   double share)
+    : file_(std::move(file)), text_(text), warnings_(warnings), progress_(progress),
+      share_of_byte_(share / static_cast<double>(text.size() + 1)) {
   if (text_.empty() || text_.back() != '\n') text_ += '\n';
   if (text_.find_first_of("\r\\") == std::string::npos) return;
   for (std::size_t i = 0; i < text_.size(); ++i) {
@@ -30,7 +32,7 @@ ObjLines::ObjLines(std::string file, std::string& text, WarningList& warnings)
 
 ObjLines::int_type ObjLines::underflow() {
   while (next_ < text_.size()) {
-    warnings_.check_stop();
+    progress_.reach(share_of_byte_ * static_cast<double>(next_));
     std::size_t begin = next_, end = text_.find('\n', begin); // the text ends in one
     next_ = end + 1;
     line_ += 1 + skipped_breaks_;

@@ -17,8 +17,9 @@ namespace candela {
 /// spaces), and no other line reaches it.
 class ObjLines final : public std::streambuf {
 public:
-  /// `text` must outlive this; line ends and continued lines are made uniform in it.
-  ObjLines(std::string file, std::string& text, WarningList& warnings);
+  /// `text` must outlive this; line ends and continued lines are made uniform in it. The lines are the part
+  /// [0, share] of `progress`.
+  ObjLines(std::string file, std::string& text, WarningList& warnings, ProgressPart& progress, double share);
 
   std::function<void(std::string_view names, const Location&)> on_mtllib;
   std::function<void(std::string_view name, const Location&)> on_usemtl;
@@ -52,6 +53,8 @@ private:
   std::string file_;
   std::string& text_;
   WarningList& warnings_;
+  ProgressPart& progress_;
+  double share_of_byte_;
   std::string_view current_;           ///< the line being checked
   std::size_t next_ = 0;               ///< where the next line starts
   int line_ = 0;                       ///< its number, from 1

@@ -17,6 +17,8 @@ namespace candela {
 namespace {
 
 constexpr std::size_t kMaxObjBytes = 0x7fffffff;
+/// Of the time that a file takes, that of its lines; the rest makes vertices and triangles of them.
+constexpr double kLinesShare = 0.7;
 
 /// One corner of a polygon: indices from 0, -1 where it has none.
 struct Corner {
@@ -97,8 +99,9 @@ tinyobj::callback_t callbacks() {
 /// Unifies corners into vertices of the mesh.
 class MeshAssembly {
 public:
-  MeshAssembly(const ObjContents& contents, const std::string& file, WarningList& warnings)
-      : c_(contents), file_(file), warnings_(warnings) {
+  MeshAssembly(const ObjContents& contents, const std::string& file, WarningList& warnings,
+               ProgressPart& progress)
+      : c_(contents), file_(file), warnings_(warnings), progress_(progress) {
     for (const Corner& corner : c_.corners) has_normals_ |= corner.vn >= 0, has_uvs_ |= corner.vt >= 0;
     vertices_.reserve(c_.positions.size());
   }
@@ -106,8 +109,10 @@ public:
   Mesh run() {
     std::vector<vec3> outline;
     std::vector<std::array<int, 3>> triangles;
+    const double share_of_face = (1 - kLinesShare) / static_cast<double>(c_.faces.size());
+    double share = kLinesShare;
     for (const Face& face : c_.faces) {
-      warnings_.check_stop();
+      progress_.reach(share += share_of_face);
       std::span<const Corner> corners(c_.corners.data() + face.first, static_cast<std::size_t>(face.count));
       outline.clear();
       for (const Corner& corner : corners) outline.push_back(position(corner));
@@ -152,6 +157,7 @@ private:
   const ObjContents& c_;
   const std::string& file_;
   WarningList& warnings_;
+  ProgressPart& progress_;
   bool has_normals_ = false, has_uvs_ = false;
   std::unordered_map<Corner, std::uint32_t, CornerHash> vertices_;
   Mesh mesh_;
@@ -185,7 +191,8 @@ ObjModel read_obj(const FoundFile& file, const PathPolicy& policy, MtlDialect di
   std::string text = read_text_file(file.canonical, "mesh", kMaxObjBytes);
   ObjContents contents;
   MtlLibrary library;
-  ObjLines lines(file.shown, text, warnings);
+  ProgressPart progress = warnings.part(file.canonical, text.size());
+  ObjLines lines(file.shown, text, warnings, progress, kLinesShare);
   contents.lines = &lines;
   lines.on_usemtl = [&](std::string_view name, const Location&) { contents.material = name; };
   lines.on_mtllib = [&](std::string_view names, const Location& where) {
@@ -197,7 +204,7 @@ ObjModel read_obj(const FoundFile& file, const PathPolicy& policy, MtlDialect di
   lines.check_forward_indices();
 
   ObjModel model;
-  model.mesh = MeshAssembly(contents, file.shown, warnings).run();
+  model.mesh = MeshAssembly(contents, file.shown, warnings, progress).run();
   Mesh& mesh = model.mesh;
   if (mesh.triangles.empty())
     throw input_error({file.shown}, "mesh", "it has no face", "export the model with faces");

@@ -30,7 +30,10 @@ std::shared_ptr<const Panorama> read_panorama(std::span<const std::string> paths
   auto panorama = std::make_shared<Panorama>();
   Image& all = panorama->image;
   for (const std::string& path : paths) {
-    Image image = read_image(path);
+    warnings.check_stop();
+    const Bytes bytes = read_file_bytes(path, "image");
+    ProgressPart progress = warnings.part(path, bytes.size());
+    Image image = decode_image(bytes, {path}, &progress);
     make_radiance(image, {path}, warnings);
     if (panorama->sources.empty()) {
       panorama->name = std::filesystem::path(path).filename().string();

@@ -11,6 +11,13 @@
 
 namespace candela {
 
+void SceneBuilder::expect_file(const std::string& reference, const std::string& folder) {
+  if (!expected_.insert(reference).second) return;
+  try {
+    if (auto file = policy_.find(reference, folder, {}, "")) warnings_.expect_file(file->canonical);
+  } catch (const Error&) {} // its reader says it, and where
+}
+
 MeshFile& SceneBuilder::mesh_file(const FoundFile& file, const std::string& name, const Location& where,
                                   std::string_view element) {
   auto& by_name = meshes_[file.canonical];
@@ -42,7 +49,7 @@ int SceneBuilder::texture(const FoundFile& file) {
 
 int SceneBuilder::append_texture(const FoundFile& file) {
   auto known = textures_.find(file.canonical);
-  auto texture = known == textures_.end() ? read_texture(file.canonical)
+  auto texture = known == textures_.end() ? read_texture(file.canonical, warnings_)
                                           : scene_.textures[static_cast<std::size_t>(known->second)];
   auto index = static_cast<int>(scene_.textures.size());
   scene_.textures.push_back(std::move(texture));

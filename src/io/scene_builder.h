@@ -29,6 +29,9 @@ public:
   const PathPolicy& policy() const { return policy_; }
   WarningList& warnings() { return warnings_; }
 
+  /// Counts a file, named in one of `folder`, that will be read. What is wrong with it is said then.
+  void expect_file(const std::string& reference, const std::string& folder);
+
   /// The mesh of a file (OBJ by its ending) under a name, "" for the file's own. The same file is read once,
   /// and one name of it is one Mesh.
   MeshFile& mesh_file(const FoundFile& file, const std::string& name, const Location& where,
@@ -63,6 +66,7 @@ private:
   std::map<std::string, int> textures_;                           ///< by canonical path
   std::map<std::vector<std::string>, std::shared_ptr<const Panorama>> panoramas_; ///< by canonical paths
   std::unordered_set<std::string> material_names_;
+  std::unordered_set<std::string> expected_; ///< as they are named
   int default_material_ = -1;
 };
 

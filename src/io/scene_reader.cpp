@@ -52,7 +52,8 @@ Document read_by_ending(const FoundFile& file, const ReadOptions& options, const
 } // namespace
 
 LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
-  WarningList warnings(options.stop);
+  WarningList warnings(options.progress);
+  warnings.check_stop();
   LoadedScene loaded;
   if (lower_ending(path) == ".ini") {
     IniJob job = read_ini_job(path, options.allow_outside);

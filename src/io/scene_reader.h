@@ -5,6 +5,7 @@
 #include "io/warning_list.h"
 #include "scene/document.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +14,8 @@ namespace candela {
 
 struct ReadOptions {
   bool allow_outside = false; ///< may a scene name files outside of its own folder's tree?
-  std::stop_token stop = {};  ///< ends reading with ReadCancelled
+  /// Told how far reading is; ends it with Cancelled.
+  std::shared_ptr<Progress> progress = std::make_shared<Progress>();
 };
 
 /// Pixels of the film.

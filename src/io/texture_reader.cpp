@@ -32,17 +32,24 @@ Picture8 picture_of(const Image& image) {
 } // namespace
 
 std::shared_ptr<const Texture> read_texture(const std::string& path) {
+  WarningList nobody;
+  return read_texture(path, nobody);
+}
+
+std::shared_ptr<const Texture> read_texture(const std::string& path, WarningList& warnings) {
   Location where{path};
+  warnings.check_stop();
   Bytes bytes = read_file_bytes(path, "image");
+  ProgressPart progress = warnings.part(path, bytes.size());
   Picture8 picture;
   if (is_stb_format(bytes))
     picture = decode_stb8(bytes, where);
   else if (is_jpg(bytes))
-    picture = decode_jpg(bytes, where);
+    picture = decode_jpg(bytes, where, &progress);
   else if (ends_in_tga(path))
     picture = decode_stb8(bytes, where, true);
   else
-    picture = picture_of(decode_image(bytes, where));
+    picture = picture_of(decode_image(bytes, where, &progress));
   auto texture = std::make_shared<Texture>();
   texture->name = std::filesystem::path(path).filename().string();
   texture->source = path;

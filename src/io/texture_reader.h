@@ -1,6 +1,7 @@
 #pragma once
 // Pictures that colour surfaces.
 
+#include "io/warning_list.h"
 #include "scene/mesh.h"
 
 #include <memory>
@@ -13,5 +14,7 @@ namespace candela {
 /// without its folder, `source` the path as given. Throws input_error for a file that cannot be read and
 /// limit_error above 65536 pixels a side or 2^28 in all.
 std::shared_ptr<const Texture> read_texture(const std::string& path);
+/// The same; told to stop, it throws Cancelled.
+std::shared_ptr<const Texture> read_texture(const std::string& path, WarningList& warnings);
 
 } // namespace candela

@@ -2,7 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 namespace candela {
+
+void WarningList::expect_file(const std::string& canonical) {
+  std::error_code failed;
+  const auto bytes = std::filesystem::file_size(canonical, failed);
+  if (!failed && expected_.try_emplace(canonical, bytes).second) progress_->expect(bytes);
+}
+
+ProgressPart WarningList::part(const std::string& canonical, std::size_t bytes) {
+  progress_->check();
+  std::uint64_t work = bytes;
+  if (auto known = expected_.find(canonical); known != expected_.end()) {
+    work = known->second;
+    expected_.erase(known);
+  } else {
+    progress_->expect(work);
+  }
+  return {*progress_, work};
+}
 
 void WarningList::add(const Location& where, std::string_view text) {
   // A hostile file could say something different in every line: beyond this many, all the rest is one.

@@ -2,10 +2,10 @@
 // What a reader has to say without refusing the file.
 
 #include "core/error.h"
+#include "core/progress.h"
 
-#include <exception>
 #include <map>
-#include <stop_token>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,25 +19,25 @@ struct Warning {
   bool operator==(const Warning&) const = default;
 };
 
-/// Thrown out of a reader that was asked to stop.
-struct ReadCancelled : std::exception {
-  const char* what() const noexcept override { return "reading was given up"; }
-};
-
-/// A reader's line to who waits for it: warnings one way, the wish to stop the other. Collects warnings;
-/// those that say the same of the same file become one, counted.
+/// A reader's line to who waits for it: warnings and progress one way, the wish to stop the other. Collects
+/// warnings; those that say the same of the same file become one, counted. The unit of progress is a byte of
+/// a file.
 class WarningList {
 public:
-  explicit WarningList(std::stop_token stop = {}) : stop_(std::move(stop)) {}
-  /// To be called wherever a reader may be for long; throws ReadCancelled.
-  void check_stop() const {
-    if (stop_.stop_requested()) throw ReadCancelled();
-  }
+  explicit WarningList(std::shared_ptr<Progress> progress = std::make_shared<Progress>())
+      : progress_(std::move(progress)) {}
+  /// To be called wherever a reader may be for long; throws Cancelled.
+  void check_stop() const { progress_->check(); }
+  /// Counts a file that will be read, so that the share is of all that is known to come.
+  void expect_file(const std::string& canonical);
+  /// The part of the progress that is one file.
+  ProgressPart part(const std::string& canonical, std::size_t bytes);
   void add(const Location& where, std::string_view text);
   const std::vector<Warning>& warnings() const { return warnings_; }
 
 private:
-  std::stop_token stop_;
+  std::shared_ptr<Progress> progress_;
+  std::map<std::string, std::uint64_t> expected_; ///< bytes of files that were not read yet, by path
   std::vector<Warning> warnings_;
   std::map<std::string, std::size_t> index_; ///< by file and text
 };

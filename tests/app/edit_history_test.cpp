@@ -147,5 +147,26 @@ TEST_F(History, IsBounded) {
   EXPECT_TRUE(first.expired());
 }
 
+TEST(EditHistory, FindsTheNearestStepWithTheseInstances) {
+  EditHistory history;
+  EditState state = fresh();
+  const std::vector<Instance> first = state.document.scene.instances;
+  history.reset(state);
+  auto step = [&](auto edit) {
+    edit(state.document.scene);
+    history.observe(state, true, false);
+    return state.document;
+  };
+  const Document lit = step([](SceneDesc& s) { s.lights[0].scale = 2; });
+  const Document moved = step([](SceneDesc& s) { s.instances[0].world_from_object[3].x = 1; });
+  EXPECT_EQ(history.undos_to(moved.scene.instances), 0);
+  EXPECT_EQ(history.undos_to({}), std::nullopt);
+  ASSERT_EQ(history.undos_to(first), 1) << "the light stays as it is";
+  EXPECT_EQ(history.undo_by(1).document, lit);
+  ASSERT_EQ(history.undos_to(moved.scene.instances), -1);
+  EXPECT_EQ(history.undo_by(-1).document, moved);
+  EXPECT_FALSE(history.can_redo());
+}
+
 } // namespace
 } // namespace candela

@@ -3,6 +3,9 @@
 #include "app/harness.h"
 #include "io/candela_json.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <fstream>
 
 namespace candela::test {
@@ -208,6 +211,8 @@ TEST(ViewerFilesUi, ReadingIsGivenUp) {
   hand.frame(1, 0.5);
   hand.frame(1, 0.5);
   ASSERT_TRUE(hand.find("working.cancel")) << "it takes long";
+  hand.wait_until("it tells how far it is", [&] { return hand.state().loaded > 0.02; });
+  EXPECT_LT(hand.state().loaded, 1);
   hand.screenshot("reading");
   hand.key(Key::escape);
   EXPECT_FALSE(hand.state().reading);
@@ -215,6 +220,75 @@ TEST(ViewerFilesUi, ReadingIsGivenUp) {
   hand.frame(2);
   EXPECT_EQ(hand.document(), before);
   EXPECT_EQ(hand.state().error, "");
+  EXPECT_FALSE(hand.find("working.cancel"));
+}
+
+/// Two million triangles that are read quickly: one file under many names, each of them a mesh of its own.
+void write_scene_that_takes_long_to_build(const ScratchFolder& folder) {
+  constexpr int kSide = 350, kMeshes = 8;
+  std::ofstream obj(folder / "waves.obj");
+  for (int i = 0; i <= kSide; ++i)
+    for (int j = 0; j <= kSide; ++j) obj << "v " << i << ' ' << j << ' ' << 5 * std::sin(0.1 * i + j) << '\n';
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j) {
+      const int a = i * (kSide + 1) + j + 1, b = a + kSide + 1;
+      obj << "f " << a << ' ' << b << ' ' << b + 1 << "\nf " << a << ' ' << b + 1 << ' ' << a + 1 << '\n';
+    }
+  std::string meshes, instances;
+  for (int i = 0; i < kMeshes; ++i) {
+    meshes += fmt::format("{}\"m{}\": {{\"file\": \"waves.obj\"}}", i ? ", " : "", i);
+    instances += fmt::format("{}{{\"mesh\": \"m{}\", \"transform\": [{{\"translate\": [0, 0, {}]}}]}}",
+                             i ? ", " : "", i, 20 * i);
+  }
+  write_text(folder / "waves.json",
+             fmt::format("{{\"candela\": 1, \"lights\": [{{\"type\": \"constant\"}}], \"meshes\": {{{}}}, "
+                         "\"instances\": [{}]}}",
+                         meshes, instances));
+}
+
+TEST(ViewerFilesUi, BuildingIsGivenUpForTheSceneBefore) {
+  ScratchFolder folder;
+  write_scene_that_takes_long_to_build(folder);
+  const std::string path = folder / "waves.json";
+  ViewerHarness hand;
+  hand.wait_for_picture();
+  const Document before = hand.document();
+  const std::string title = hand.viewer.title();
+  const auto geometry = hand.viewer.session().scene();
+  for (bool by_key : {false, true}) {
+    if (by_key)
+      control(hand, Key::y); // what was given up is redone
+    else
+      open(hand, path);
+    hand.wait_until("it is being built", [&] {
+      return hand.state().status.phase == SessionPhase::building && hand.state().status.built > 0;
+    });
+    hand.frame(1, 2);
+    ASSERT_TRUE(hand.find("working")) << "it takes long";
+    if (by_key) {
+      hand.key(Key::escape);
+    } else {
+      hand.screenshot("building");
+      hand.click("working.cancel");
+    }
+    hand.wait_for_picture();
+    EXPECT_EQ(hand.document(), before);
+    EXPECT_EQ(hand.viewer.title(), title);
+    EXPECT_EQ(&hand.viewer.session().scene()->geometry(), &geometry->geometry());
+    EXPECT_EQ(hand.viewer.session().status().builds_cancelled, by_key ? 2u : 1u);
+    EXPECT_FALSE(hand.find("working.cancel"));
+    EXPECT_EQ(hand.state().redo_name.empty(), false);
+  }
+}
+
+// There is nothing to go back to.
+TEST(ViewerFilesUi, TheFirstSceneIsNotGivenUp) {
+  ScratchFolder folder;
+  write_scene_that_takes_long_to_build(folder);
+  ViewerHarness hand(read_scene(folder / "waves.json").document);
+  ASSERT_EQ(hand.state().status.phase, SessionPhase::building);
+  hand.frame(1, 2);
+  ASSERT_TRUE(hand.find("working"));
   EXPECT_FALSE(hand.find("working.cancel"));
 }
 
