@@ -147,14 +147,11 @@ TEST_F(History, IsBounded) {
   EXPECT_TRUE(first.expired());
 }
 
-TEST(EditHistory, FindsTheNearestStepWithTheseInstances) {
-  EditHistory history;
-  EditState state = fresh();
+TEST_F(History, FindsTheNearestStepWithTheseInstances) {
   const std::vector<Instance> first = state.document.scene.instances;
-  history.reset(state);
   auto step = [&](auto edit) {
     edit(state.document.scene);
-    history.observe(state, true, false);
+    observe();
     return state.document;
   };
   const Document lit = step([](SceneDesc& s) { s.lights[0].scale = 2; });

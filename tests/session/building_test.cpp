@@ -1,9 +1,6 @@
 // Geometry that takes long to build: how far it is, and that nobody waits for what is out of date.
 
-#include "session/render_session.h"
-#include "support/scenes.h"
-
-#include <gtest/gtest.h>
+#include "session_testing.h"
 
 #include <chrono>
 #include <thread>
@@ -11,7 +8,7 @@
 namespace candela {
 namespace {
 
-constexpr double kPatience = 120; // seconds before a wait counts as hanging
+using test::kPatience;
 
 Document small_document() {
   test::SceneMaker s(16, 12, 1);
