@@ -152,8 +152,7 @@ Cycles::Cycles(const std::string& blender, const std::string& folder, int thread
   ::posix_spawn_file_actions_init(&actions);
   ::posix_spawn_file_actions_adddup2(&actions, in[0], 0);
   ::posix_spawn_file_actions_adddup2(&actions, out[1], 1);
-  ::posix_spawn_file_actions_addopen(&actions, 2, (log_ + ".errors").c_str(), O_WRONLY | O_CREAT | O_TRUNC,
-                                     0644);
+  ::posix_spawn_file_actions_adddup2(&actions, out[1], 2);
   int failed = ::posix_spawn(&process_, blender.c_str(), &actions, nullptr, arguments.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   ::close(in[0]);
@@ -177,7 +176,7 @@ double Cycles::render(int seed, int spp, const std::string& exr) {
 
 std::string Cycles::answer(std::string_view word) {
   std::ofstream log(log_, std::ios::app);
-  std::string line;
+  std::string line, last;
   for (int c; (c = std::fgetc(from_)) != EOF;) {
     if (c != '\n') {
       line.push_back(static_cast<char>(c));
@@ -185,12 +184,11 @@ std::string Cycles::answer(std::string_view word) {
     }
     if (line.starts_with(word)) return line.substr(word.size());
     log << line << std::endl;
+    if (!line.empty() && !line.starts_with("Error: script failed")) last = line; // an exception's own text
     line.clear();
   }
-  throw Error(ExitCode::bad_input,
-              fmt::format("{}: blender ended early: it says why there (and in {}.errors): "
-                          "--keep keeps the folder",
-                          log_, log_));
+  throw Error(ExitCode::bad_input, fmt::format("blender: it ended early: {}: see {} of --keep FOLDER", last,
+                                               std::filesystem::path(log_).filename().string()));
 }
 
 } // namespace candela::versus

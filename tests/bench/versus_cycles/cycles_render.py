@@ -52,7 +52,8 @@ def make_material(m):
         shader.inputs["Roughness"].default_value = 0  # Lambert
     surface = shader.outputs[0]
     if any(m["emission"]):
-        # What shines is an area lamp before this surface (below); the camera alone sees this one shine.
+        # What shines is an area lamp before this surface (below), of which Cycles makes slightly less noise than
+        # of a shining mesh (relMSE x spp 0.114 instead of 0.116); the camera alone sees this surface shine.
         emission = nodes.new("ShaderNodeEmission")
         emission.inputs["Color"].default_value = (*m["emission"], 1)
         path = nodes.new("ShaderNodeLightPath")
@@ -176,6 +177,9 @@ def set_up_rendering():
         "film_exposure": 1, "pixel_filter_type": "BOX", "filter_width": 1,
         "use_auto_tile": False,  # one tile, the image
         "use_animated_seed": False,
+        # Of the two, SOBOL leaves as much noise (relMSE x spp at 64 spp: 0.114, 0.094, 0.067 instead of 0.114,
+        # 0.094, 0.070 in the scenes' order) and is not the default.
+        "sampling_pattern": "PROGRESSIVE_MULTI_JITTER",
     }
     for name, value in settings.items():
         setattr(scene.cycles, name, value)

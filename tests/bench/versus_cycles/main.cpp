@@ -1,9 +1,8 @@
 // The same scenes in Candela and in Blender's Cycles on the CPU: how fast each renders, how much noise it
 // leaves, and whether both mean the same picture.
 //
-//   versus_cycles_bench [--short] [--scene NAME] [--size N] [--spp N] [--seeds N] [--threads N] [--keep
-//   FOLDER]
-//                 [--cycles NAME=VALUE] [KEY=VALUE ...]
+//   versus_cycles_bench [--short] [--scene cornell|ball|plates] [--size N] [--spp N] [--seeds N]
+//                       [--threads N] [--keep FOLDER] [--cycles NAME=VALUE] [KEY=VALUE ...]
 //
 // Both get box filter, unlimited depth, no clamping, no adaptive sampling, no denoiser, the same samples and
 // as many threads; the renders alternate, so that what disturbs the machine meets both. Seconds are of

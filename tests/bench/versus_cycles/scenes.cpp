@@ -120,7 +120,7 @@ VersusScene bumpy_ball(int size, int level) {
   sky.panorama = std::move(panorama);
   s.document.scene.lights.push_back(std::move(sky));
   s.camera({0, 0.5f, 4}, {0, 0, 0}, 34);
-  return {"Bumpy ball", std::move(description), std::move(s.document), 64};
+  return {"Bumpy ball", std::move(description), std::move(s.document), 32};
 }
 
 VersusScene veach_plates(int size) {
