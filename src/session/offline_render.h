@@ -32,7 +32,7 @@ struct OfflineResult {
   RayCounts rays;
   NonFiniteLog nonfinite;
   float display_scale = 1;
-  double noise = 0;       ///< square root of the film's estimated relMSE
+  double noise = 0;       ///< square root of the film's estimated_relmse; infinite below two samples
   bool converged = false; ///< adaptive sampling stopped everywhere
   std::size_t scene_bytes = 0;
   bool interrupted = false; ///< by `stop`

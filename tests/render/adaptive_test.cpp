@@ -124,6 +124,10 @@ TEST(NoiseEstimate, KnowsOnlyPixelsOfTwoSamples) {
   film.add(0, 0, vec3(1)); // mean 0.5, variance of the mean 0.25
   film.add(1, 0, vec3(1)); // it may be noise or not
   EXPECT_FLOAT_EQ(static_cast<float>(estimated_relmse(film)), 0.25f / 0.26f);
+  std::vector<vec3> variance;
+  std::vector<std::uint32_t> samples;
+  resolve_statistics(film, variance, samples);
+  EXPECT_EQ(estimated_relmse(film.image().pixels, variance, samples), estimated_relmse(film));
 }
 
 TEST(NoiseChecks, AreFixedNumbersThatGrow) {
