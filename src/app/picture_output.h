@@ -12,7 +12,8 @@ std::vector<std::uint8_t> displayed_srgb8(const Image& image, const DisplaySetti
 /// The part of the image in the window.
 Image cropped(Image image, const CropWindow& crop);
 
-/// What a picture tells of itself: the program's version, the samples a pixel, and whether it was denoised, by what.
+/// What a picture tells of itself: the program's version, the samples a pixel, and whether it was denoised,
+/// by what.
 ImageMetadata picture_metadata(int spp, bool denoised);
 
 /// Writes a rendered picture in the format of the path's ending: tone-mapped (PNG, JPG, PPM), exactly as the
