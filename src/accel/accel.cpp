@@ -82,22 +82,50 @@ Bounds3 instance_bounds(const AccelInput& input, std::size_t i) {
   return padded(result.center(), 0.5f * result.diagonal());
 }
 
-/// Appends a ref for every primitive of a kind that can be hit; gives how many.
-template <class BoundsOf>
-std::size_t append_refs(std::vector<BuildRef>& refs, LeafKind kind, std::size_t count, BoundsOf bounds_of) {
-  std::size_t first = refs.size();
-  refs.resize(first + count);
-#pragma omp parallel for schedule(static) if (count > 10000)
-  for (std::size_t i = 0; i < count; ++i) {
-    Bounds3 b = bounds_of(i);
-    refs[first + i] = {
-        {b.lo.x, b.lo.y, b.lo.z}, static_cast<std::uint32_t>(i), {b.hi.x, b.hi.y, b.hi.z}, kind};
+/// Refs of the primitives that can be hit.
+struct RefList {
+  HugeVector<BuildRef> refs;
+  RangeBounds bounds;
+  std::uint32_t kinds = 0;
+
+  /// Appends a ref for every primitive of a kind that can be hit; gives how many.
+  template <class BoundsOf>
+  std::size_t append(LeafKind kind, std::size_t count, BoundsOf bounds_of, const BuildStage& stage) {
+    const std::size_t first = refs.size();
+    refs.resize(first + count);
+    // In chunks, each of which closes its own gaps: they are closed at once where nothing was left out.
+    const std::size_t chunks = count / 4096 + 1;
+    std::vector<std::size_t> used(chunks, 0);
+    auto begin = [&](std::size_t chunk) { return first + count * chunk / chunks; };
+#pragma omp parallel if (chunks > 1)
+    {
+      RangeBounds mine;
+#pragma omp for schedule(dynamic, 4)
+      for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+        if (stage.cancelled()) continue;
+        BuildRef* out = &refs[begin(chunk)];
+        for (std::size_t i = begin(chunk); i < begin(chunk + 1); ++i) {
+          const Bounds3 b = bounds_of(i - first);
+          if (b.empty()) continue;
+          *out = BuildRef::make(b, static_cast<std::uint32_t>(i - first), kind);
+          mine.grow(*out++);
+        }
+        used[chunk] = static_cast<std::size_t>(out - &refs[begin(chunk)]);
+      }
+#pragma omp critical
+      bounds.merge(mine);
+    }
+    stage.check();
+    std::size_t end = first;
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+      if (end != begin(chunk)) std::copy_n(&refs[begin(chunk)], used[chunk], &refs[end]);
+      end += used[chunk];
+    }
+    refs.resize(end);
+    if (end > first) kinds |= 1u << static_cast<std::uint32_t>(kind);
+    return end - first;
   }
-  auto left_out = [](const BuildRef& ref) { return ref.lo[0] > ref.hi[0]; };
-  refs.erase(std::remove_if(refs.begin() + static_cast<std::ptrdiff_t>(first), refs.end(), left_out),
-             refs.end());
-  return refs.size() - first;
-}
+};
 
 InstanceRecord make_instance(const AccelInput& input, std::uint32_t index) {
   const InstanceGeometry& instance = input.instances[index];
@@ -105,11 +133,11 @@ InstanceRecord make_instance(const AccelInput& input, std::uint32_t index) {
   return {AccelAccess::tree(*instance.object), glm::mat4x3(mat4(inverse)), index};
 }
 
-void fill_pack(AccelTree& tree, const AccelInput& input, const std::vector<BuildRef>& refs,
+void fill_pack(AccelTree& tree, const AccelInput& input, const HugeVector<BuildRef>& refs,
                const LeafRange& leaf) {
   for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
     // Unused lanes repeat the last primitive.
-    std::uint32_t index = refs[leaf.begin + std::min(lane, leaf.count - 1)].index;
+    std::uint32_t index = refs[leaf.begin + std::min(lane, leaf.count - 1)].index();
     switch (leaf.kind) {
     case LeafKind::triangles: {
       TrianglePack& pack = tree.triangles[leaf.pack];
@@ -168,28 +196,32 @@ Accel Accel::build(const AccelInput& input, BuildQuality quality, Progress* prog
   making_refs.check();
   auto tree = std::make_unique<AccelTree>();
   AccelStats& stats = tree->stats;
-  std::vector<BuildRef> refs;
-  refs.reserve(count);
-  stats.triangles = append_refs(refs, LeafKind::triangles, input.triangles.size(),
-                                [&](std::size_t i) { return triangle_bounds(input, i); });
-  stats.spheres = append_refs(refs, LeafKind::spheres, input.spheres.size(),
-                              [&](std::size_t i) { return sphere_bounds(input, i); });
-  stats.discs = append_refs(refs, LeafKind::discs, input.discs.size(),
-                            [&](std::size_t i) { return disc_bounds(input, i); });
-  stats.instances = append_refs(refs, LeafKind::instance, input.instances.size(),
-                                [&](std::size_t i) { return instance_bounds(input, i); });
-  stats.skipped = count - refs.size();
+  RefList list;
+  list.refs.reserve(count);
+  stats.triangles = list.append(
+      LeafKind::triangles, input.triangles.size(), [&](std::size_t i) { return triangle_bounds(input, i); },
+      making_refs);
+  stats.spheres = list.append(
+      LeafKind::spheres, input.spheres.size(), [&](std::size_t i) { return sphere_bounds(input, i); },
+      making_refs);
+  stats.discs = list.append(
+      LeafKind::discs, input.discs.size(), [&](std::size_t i) { return disc_bounds(input, i); }, making_refs);
+  stats.instances = list.append(
+      LeafKind::instance, input.instances.size(), [&](std::size_t i) { return instance_bounds(input, i); },
+      making_refs);
+  const std::size_t used = list.refs.size();
+  stats.skipped = count - used;
   stats.bytes = sizeof(AccelTree);
-  making_refs.done(refs.size());
+  making_refs.done(used);
   if (progress) progress->advance(build_work(stats.skipped));
-  if (refs.empty()) return Accel(std::move(tree));
+  if (used == 0) return Accel(std::move(tree));
 
-  BinaryBvh binary = build_binary_bvh(std::move(refs), quality, progress);
+  const BinaryBvh binary = build_binary_bvh(std::move(list.refs), list.bounds,
+                                            !std::has_single_bit(list.kinds), quality, progress);
   WideBvh wide = collapse(binary, quality, progress);
-  const BinaryNode& root = binary.nodes[0];
   tree->root = wide.root;
-  tree->bounds = {{root.lo[0], root.lo[1], root.lo[2]}, {root.hi[0], root.hi[1], root.hi[2]}};
-  for (int a = 0; a < 3; ++a) tree->lower[a] = tree->bounds.lo[a], tree->upper[a] = tree->bounds.hi[a];
+  tree->lower = list.bounds.box.lo(), tree->upper = list.bounds.box.hi();
+  for (int a = 0; a < 3; ++a) tree->bounds.lo[a] = tree->lower[a], tree->bounds.hi[a] = tree->upper[a];
   tree->nodes = std::move(wide.nodes);
   tree->triangles.resize(wide.packs[static_cast<std::size_t>(LeafKind::triangles)]);
   tree->spheres.resize(wide.packs[static_cast<std::size_t>(LeafKind::spheres)]);
@@ -197,7 +229,7 @@ Accel Accel::build(const AccelInput& input, BuildQuality quality, Progress* prog
   tree->instances.resize(wide.packs[static_cast<std::size_t>(LeafKind::instance)]);
 #pragma omp parallel for schedule(static) if (wide.leaves.size() > 1000)
   for (std::size_t i = 0; i < wide.leaves.size(); ++i) fill_pack(*tree, input, binary.refs, wide.leaves[i]);
-  filling_packs.done(binary.refs.size());
+  filling_packs.done(used);
 
   stats.nodes = tree->nodes.size();
   stats.leaves = wide.leaves.size();

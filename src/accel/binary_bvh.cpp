@@ -1,114 +1,43 @@
 #include "accel/binary_bvh.h"
 
 #include "accel/build_stage.h"
+#include "accel/collapse_plan.h"
+#include "accel/split.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace candela::accel_detail {
 
 namespace {
 
 using simd::IntVec4;
-using simd::max4;
-using simd::min4;
 using simd::Vec4;
 
-struct Box4 {
-  Vec4 lo{kInfinity, kInfinity, kInfinity, kInfinity};
-  Vec4 hi{-kInfinity, -kInfinity, -kInfinity, -kInfinity};
-
-  void grow(Vec4 low, Vec4 high) { lo = min4(lo, low), hi = max4(hi, high); }
-  void grow(const Box4& b) { grow(b.lo, b.hi); }
-  float half_area() const {
-    Vec4 d = hi - lo, turned = __builtin_shufflevector(d, d, 1, 2, 0, 3), product = d * turned;
-    return product[0] + product[1] + product[2];
-  }
+/// The refs of a range lie in one of two arrays: `from`, whence a partition brings them to `to`. Out of place
+/// it needs no branch that depends on the ref, and half of those would be mispredicted; and ranges in the
+/// upper levels are partitioned in parallel.
+struct Buffers {
+  BuildRef *from, *to;
 };
 
-/// The fourth lane is 0: index and kind, which lie there, look like denormal numbers, and those are slow.
-inline Vec4 xyz(const std::array<float, 3>& p) {
-  return reinterpret_cast<Vec4>(*reinterpret_cast<const IntVec4*>(p.data()) & IntVec4{-1, -1, -1, 0});
-}
-inline Vec4 low(const BuildRef& ref) { return xyz(ref.lo); }
-inline Vec4 high(const BuildRef& ref) { return xyz(ref.hi); }
-inline Vec4 centroid(const BuildRef& ref) { return (low(ref) + high(ref)) * 0.5f; }
-
-constexpr int kMaxBins = 16;
-
-/// Only the first `size` of each axis are in use and set: most ranges are small, and clearing bins is a good
-/// part of their time.
-struct Bins {
-  std::array<std::array<Box4, kMaxBins>, 3> box;
-  std::array<std::array<std::uint32_t, kMaxBins>, 3> count;
-  std::size_t size;
-
-  explicit Bins(int bins) : size(static_cast<std::size_t>(bins)) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t i = 0; i < size; ++i) box[axis][i] = Box4{}, count[axis][i] = 0;
-  }
-  void merge(const Bins& b) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t i = 0; i < size; ++i) {
-        box[axis][i].grow(b.box[axis][i]);
-        count[axis][i] += b.count[axis][i];
-      }
-  }
+struct Sides {
+  RangeBounds left, right;
+  std::uint32_t left_count;
+  Buffers buffers; ///< of both
 };
-
-/// The boxes of a range: of the primitives and of their centroids.
-struct RangeBounds {
-  Box4 box, centroids;
-  std::uint32_t kinds = 0; ///< a bit each
-
-  void grow(const BuildRef& ref) {
-    box.grow(low(ref), high(ref));
-    Vec4 c = centroid(ref);
-    centroids.grow(c, c);
-    kinds |= 1u << static_cast<std::uint32_t>(ref.kind);
-  }
-  void merge(const RangeBounds& b) { box.grow(b.box), centroids.grow(b.centroids), kinds |= b.kinds; }
-};
-
-/// Maps centroids to bins.
-struct Binning {
-  Vec4 origin, scale;
-  int bins;
-
-  Binning(const Box4& centroids, int bin_count) : origin(centroids.lo), bins(bin_count) {
-    Vec4 extent = centroids.hi - centroids.lo;
-    scale = Vec4{0, 0, 0, 0};
-    for (int a = 0; a < 3; ++a)
-      if (extent[a] > 0) {
-        float s = 0.9999f * static_cast<float>(bins) / extent[a];
-        scale[a] = std::isfinite(s) ? s : 0.0f; // denormal extents: treat as coincident
-      }
-  }
-  bool usable(int a) const { return scale[a] > 0; }
-  /// Of all axes; in range, for the product lies in [0, 0.9999 bins].
-  IntVec4 bin(Vec4 c) const { return __builtin_convertvector((c - origin) * scale, IntVec4); }
-};
-
-struct Split {
-  float cost = kInfinity; ///< area times packs of both sides
-  int axis = -1;
-  int first_right_bin = 0;
-};
-
-/// What a side of a split costs to test, over its area: whole packs. Counting these instead of primitives
-/// fills leaves better (5.6 triangles each instead of 5.1) and gave 3 % more rays on the large sphere.
-float packs(std::uint32_t count) { return static_cast<float>((count + kWidth - 1) / kWidth); }
 
 class Builder {
 public:
   Builder(BinaryBvh& bvh, BuildQuality quality, const BuildStage& stage)
       : bvh_(bvh), quality_(quality), stage_(stage) {}
 
-  void build() {
-    auto count = static_cast<std::uint32_t>(bvh_.refs.size());
-#pragma omp parallel if (count >= kTaskRange)
+  void build(const RangeBounds& bounds) {
+    Subtree root = bvh_.root();
+    other_.resize(root.count);
+    ForestCosts cost;
+#pragma omp parallel if (root.count >= kTaskRange)
 #pragma omp single
-    build_subtree(0, 0, count, range_bounds(0, count), 1);
+    build_subtree(root, {bvh_.refs.data(), other_.data()}, bounds, 1, cost);
     stage_.check();
   }
 
@@ -117,172 +46,208 @@ private:
   // do not depend on the number of threads, and neither minima, maxima nor counts depend on the order of
   // merging.
   static constexpr std::uint32_t kTaskRange = 2048;
-  static constexpr std::uint32_t kParallelRange = 1u << 17;
-  static constexpr std::uint32_t kChunks = 16;
-
-  BuildRef* refs() { return bvh_.refs.data(); }
-
-  /// Runs visit(from, to, result) over the range, in parallel chunks with a result each if it is large.
-  template <class Result, class Visit>
-  void reduce(std::uint32_t begin, std::uint32_t end, Result& result, Visit visit) {
-    if (end - begin < kParallelRange) {
-      visit(begin, end, result);
-      return;
-    }
-    std::vector<Result> partial(kChunks, result);
-    auto at = [=](std::uint32_t chunk) {
-      return begin + static_cast<std::uint32_t>(std::uint64_t{end - begin} * chunk / kChunks);
-    };
-#pragma omp taskloop default(shared) grainsize(1)
-    for (std::uint32_t chunk = 0; chunk < kChunks; ++chunk) visit(at(chunk), at(chunk + 1), partial[chunk]);
-    for (const Result& p : partial) result.merge(p);
-  }
-
-  RangeBounds range_bounds(std::uint32_t begin, std::uint32_t end) {
-    RangeBounds bounds;
-    reduce(begin, end, bounds, [this](std::uint32_t from, std::uint32_t to, RangeBounds& result) {
-      for (std::uint32_t i = from; i < to; ++i) result.grow(refs()[i]);
-    });
-    return bounds;
-  }
-
-  Split best_split(const Bins& bins, const Binning& binning) const {
-    Split best;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!binning.usable(axis)) continue;
-      const auto& box = bins.box[static_cast<std::size_t>(axis)];
-      const auto& count = bins.count[static_cast<std::size_t>(axis)];
-      std::array<float, kMaxBins> right_cost;
-      Box4 side;
-      std::uint32_t in_side = 0;
-      for (std::size_t i = bins.size - 1; i > 0; --i) {
-        side.grow(box[i]);
-        in_side += count[i];
-        right_cost[i] = in_side ? side.half_area() * packs(in_side) : kInfinity;
-      }
-      side = Box4{}, in_side = 0;
-      for (std::size_t i = 1; i < bins.size; ++i) {
-        side.grow(box[i - 1]);
-        in_side += count[i - 1];
-        if (!in_side) continue;
-        float cost = side.half_area() * packs(in_side) + right_cost[i];
-        if (cost < best.cost) best = {cost, axis, static_cast<int>(i)};
-      }
-    }
-    return best;
-  }
+  static constexpr std::uint32_t kParallelRange = 1u << 16;
+  static constexpr std::uint32_t kChunks = 32;
 
   /// More would be more work in the many small ranges, and gain nothing (32: no more rays per second).
-  static int bin_count(std::uint32_t count) { return count <= 4 ? 4 : count <= 32 ? 8 : kMaxBins; }
+  int bin_count(std::uint32_t count) const { return count <= 32 ? 8 : kMaxBins; }
 
-  void fill(const Binning& binning, std::uint32_t begin, std::uint32_t end, Bins& bins) {
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const BuildRef& ref = refs()[i];
-      Vec4 lo = low(ref), hi = high(ref);
-      IntVec4 bin = binning.bin(centroid(ref));
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        auto b = static_cast<std::size_t>(bin[static_cast<int>(axis)]);
-        bins.box[axis][b].grow(lo, hi);
-        ++bins.count[axis][b];
-      }
-    }
+  /// Calls visit(chunk, from, to) for all chunks of a large range.
+  template <class Visit>
+  void for_chunks(const Subtree& s, Visit visit) {
+    auto at = [&](std::uint32_t chunk) {
+      return s.begin + static_cast<std::uint32_t>(std::uint64_t{s.count} * chunk / kChunks);
+    };
+#pragma omp taskloop default(shared) grainsize(1)
+    for (std::uint32_t chunk = 0; chunk < kChunks; ++chunk)
+      if (!stage_.cancelled()) visit(chunk, at(chunk), at(chunk + 1));
   }
 
-  /// Partitions the range and takes the bounds of both sides on the way; gives the first index of the right
-  /// one.
-  template <class IsLeft>
-  std::uint32_t partition(std::uint32_t begin, std::uint32_t end, IsLeft is_left, RangeBounds& left,
-                          RangeBounds& right) {
-    if (end - begin >= kParallelRange) {
-      BuildRef* mid = std::partition(refs() + begin, refs() + end, is_left);
-      auto middle = static_cast<std::uint32_t>(mid - refs());
-      left = range_bounds(begin, middle), right = range_bounds(middle, end);
-      return middle;
+  /// Brings the refs [from, to) to where the sides of the split begin and takes the bounds of their centroids
+  /// on the way.
+  static void partition(const Binning& binning, const Split& split, const BuildRef* from, const BuildRef* to,
+                        BuildRef* left, BuildRef* right, CentroidBounds& left_bounds,
+                        CentroidBounds& right_bounds) {
+    const auto axis = static_cast<std::size_t>(split.axis);
+    CentroidBounds in_left = left_bounds, in_right = right_bounds;
+    for (; from != to; ++from) {
+      const BuildRef ref = *from;
+      const bool is_left = binning.bin(ref, axis) < split.position;
+      // All bits set are a NaN, which grows nothing.
+      const std::int32_t bits = -static_cast<std::int32_t>(is_left);
+      const IntVec4 mask{bits, bits, bits, bits}, c = reinterpret_cast<IntVec4>(twice_centroid(ref.box()));
+      in_left.grow(reinterpret_cast<Vec4>(c | ~mask));
+      in_right.grow(reinterpret_cast<Vec4>(c | mask));
+      *(is_left ? left : right) = ref;
+      left += is_left, right += !is_left;
     }
-    for (;;) {
-      for (; begin < end && is_left(refs()[begin]); ++begin) left.grow(refs()[begin]);
-      for (; begin < end && !is_left(refs()[end - 1]); --end) right.grow(refs()[end - 1]);
-      if (begin == end) return begin;
-      std::swap(refs()[begin], refs()[end - 1]);
-      left.grow(refs()[begin++]);
-      right.grow(refs()[--end]);
-    }
+    left_bounds = in_left, right_bounds = in_right;
   }
 
-  /// Partitions the range; gives the first index of the right part and the bounds of both.
-  std::uint32_t split(std::uint32_t begin, std::uint32_t end, const RangeBounds& bounds, int depth,
-                      RangeBounds& left, RangeBounds& right) {
-    // From here on halving is the only way to stay within the depth: 2^(levels left) primitives.
-    int levels_left = kMaxDepth - depth - 1;
-    bool must_halve = static_cast<int>(std::bit_width(end - begin - 1)) >= levels_left;
-    Binning binning(bounds.centroids, bin_count(end - begin));
-    if (end - begin > 2 && !must_halve && (binning.usable(0) || binning.usable(1) || binning.usable(2))) {
-      Bins bins(binning.bins);
-      reduce(begin, end, bins, [this, &binning](std::uint32_t from, std::uint32_t to, Bins& result) {
-        fill(binning, from, to, result);
-      });
-      if (Split best = best_split(bins, binning); best.axis >= 0) {
-        auto is_left = [&](const BuildRef& ref) {
-          return binning.bin(centroid(ref))[best.axis] < best.first_right_bin;
-        };
-        return partition(begin, end, is_left, left, right);
-      }
+  Sides split_large(const Subtree& s, Buffers buffers, const Binning& binning) {
+    Sides sides{{}, {}, 0, {buffers.to, buffers.from}};
+    std::vector<Bins> partial(kChunks, Bins(binning.bins));
+    for_chunks(s, [&](std::uint32_t chunk, std::uint32_t from, std::uint32_t to) {
+      binning.fill(buffers.from + from, buffers.from + to, partial[chunk]);
+    });
+    Bins bins(binning.bins);
+    for (const Bins& p : partial) bins.merge(p);
+    const Split split = bins.best_split();
+    if (split.axis < 0) return sides;
+    sides.left_count = bins.count_left(split);
+    sides.left.box = bins.box_of(split.axis, 0, split.position);
+    sides.right.box = bins.box_of(split.axis, split.position, bins.size);
+    // The bins of the chunks tell where in either side each of them begins.
+    std::array<std::uint32_t, kChunks> lefts_before;
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < kChunks; ++i) {
+      lefts_before[i] = sum;
+      sum += partial[i].count_left(split);
     }
-    // Two, coincident centroids or no depth left: halves along the longest axis of the centroids.
+    std::array<std::pair<CentroidBounds, CentroidBounds>, kChunks> centroids;
+    for_chunks(s, [&](std::uint32_t chunk, std::uint32_t from, std::uint32_t to) {
+      BuildRef* left = buffers.to + s.begin + lefts_before[chunk];
+      BuildRef* right = buffers.to + sides.left_count + from - lefts_before[chunk];
+      partition(binning, split, buffers.from + from, buffers.from + to, left, right, centroids[chunk].first,
+                centroids[chunk].second);
+    });
+    for (const auto& [left, right] : centroids)
+      sides.left.centroids.merge(left), sides.right.centroids.merge(right);
+    return sides;
+  }
+
+  Sides split_bins(const Subtree& s, Buffers buffers, const Binning& binning) {
+    Sides sides{{}, {}, 0, {buffers.to, buffers.from}};
+    const BuildRef *begin = buffers.from + s.begin, *end = begin + s.count;
+    Bins bins(binning.bins);
+    binning.fill(begin, end, bins);
+    const Split split = bins.best_split();
+    if (split.axis < 0) return sides;
+    sides.left_count = bins.count_left(split);
+    sides.left.box = bins.box_of(split.axis, 0, split.position);
+    sides.right.box = bins.box_of(split.axis, split.position, bins.size);
+    BuildRef *left = buffers.to + s.begin, *right = left + sides.left_count;
+    partition(binning, split, begin, end, left, right, sides.left.centroids, sides.right.centroids);
+    return sides;
+  }
+
+  /// Takes the bounds of sides that are in place already.
+  static Sides sides_in_place(const Subtree& s, Buffers buffers, std::uint32_t left_count) {
+    Sides sides{{}, {}, left_count, buffers};
+    const BuildRef* ref = buffers.from + s.begin;
+    for (std::uint32_t i = 0; i < left_count; ++i) sides.left.grow(*ref++);
+    for (std::uint32_t i = left_count; i < s.count; ++i) sides.right.grow(*ref++);
+    return sides;
+  }
+
+  static Sides split_few(const Subtree& s, Buffers buffers, const Ranks& ranks, const Split& split) {
+    BuildRef* to = buffers.to + s.begin;
+    for (std::uint32_t i = 0; i < s.count; ++i) to[i] = ranks.at(split.axis, static_cast<int>(i));
+    return sides_in_place(s, {buffers.to, buffers.from}, static_cast<std::uint32_t>(split.position));
+  }
+
+  /// Halves along the longest axis of the centroids.
+  static Sides halve(const Subtree& s, Buffers buffers, const RangeBounds& bounds) {
     Vec4 extent = bounds.centroids.hi - bounds.centroids.lo;
     int axis = extent[0] >= extent[1] ? (extent[0] >= extent[2] ? 0 : 2) : (extent[1] >= extent[2] ? 1 : 2);
-    std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(
-        refs() + begin, refs() + middle, refs() + end,
-        [axis](const BuildRef& a, const BuildRef& b) { return centroid(a)[axis] < centroid(b)[axis]; });
-    left = range_bounds(begin, middle), right = range_bounds(middle, end);
-    return middle;
+    BuildRef* begin = buffers.from + s.begin;
+    std::nth_element(begin, begin + s.count / 2, begin + s.count,
+                     [axis](const BuildRef& a, const BuildRef& b) {
+                       return twice_centroid(a.box())[axis] < twice_centroid(b.box())[axis];
+                     });
+    return sides_in_place(s, buffers, s.count / 2);
+  }
+
+  /// as_leaf: it may stay one, then there is no side where two packs have no less area than one.
+  Sides split(const Subtree& s, Buffers buffers, const RangeBounds& bounds, int depth, bool as_leaf) {
+    // From here on halving is the only way to stay within the depth: 2^(levels left) primitives.
+    int levels_left = kMaxDepth - depth - 1;
+    if (static_cast<int>(std::bit_width(s.count - 1)) < levels_left) {
+      if (s.count <= kSweepRange) {
+        const Ranks ranks(buffers.from + s.begin, s.count);
+        const Split split = ranks.best_split();
+        if (as_leaf && split.cost >= bounds.box.half_area()) return {{}, {}, 0, buffers};
+        return split_few(s, buffers, ranks, split);
+      }
+      Binning binning(bounds.centroids, bin_count(s.count));
+      if (binning.usable()) {
+        Sides sides =
+            s.count >= kParallelRange ? split_large(s, buffers, binning) : split_bins(s, buffers, binning);
+        if (sides.left_count) return sides;
+      }
+    }
+    return halve(s, buffers, bounds);
+  }
+
+  /// Brings the refs of a leaf to where they stay.
+  void settle(const Subtree& s, Buffers buffers) {
+    if (buffers.from == bvh_.refs.data()) return;
+    std::copy_n(buffers.from + s.begin, s.count, buffers.to + s.begin);
   }
 
   /// One that may be a task of its own. Cancelled, it leaves its nodes as they are.
-  void build_subtree(std::uint32_t node, std::uint32_t begin, std::uint32_t end, const RangeBounds& bounds,
-                     int depth) {
+  void build_subtree(const Subtree& s, Buffers buffers, const RangeBounds& bounds, int depth,
+                     ForestCosts& cost) {
     if (stage_.cancelled()) return;
-    build_range(node, begin, end, bounds, depth);
-    if (end - begin < kTaskRange) stage_.done(end - begin);
+    build_range(s, buffers, bounds, depth, cost);
+    if (s.count < kTaskRange) stage_.done(s.count);
   }
 
-  void build_range(std::uint32_t node_index, std::uint32_t begin, std::uint32_t end,
-                   const RangeBounds& bounds, int depth) {
-    BinaryNode& node = bvh_.nodes[node_index];
-    for (std::size_t a = 0; a < 3; ++a) node.lo[a] = bounds.box.lo[a], node.hi[a] = bounds.box.hi[a];
-    std::uint32_t count = end - begin;
-    node.begin = begin, node.count = count & kMaxPrimitives;
-    node.mixed = !std::has_single_bit(bounds.kinds);
-    std::uint32_t stop = quality_ == BuildQuality::high ? 1 : leaf_capacity(refs()[begin].kind);
-    node.leaf = !node.mixed && count <= stop;
-    if (node.leaf) return;
-    RangeBounds left, right;
-    std::uint32_t middle = split(begin, end, bounds, depth, left, right);
-    std::uint32_t left_node = node_index + 1, right_node = node_index + 2 * (middle - begin);
-    if (count >= kTaskRange) {
-#pragma omp task default(shared) firstprivate(left_node, begin, middle, depth)
-      build_subtree(left_node, begin, middle, left, depth + 1);
-      build_subtree(right_node, middle, end, right, depth + 1);
+  void build_range(const Subtree& s, Buffers buffers, const RangeBounds& bounds, int depth,
+                   ForestCosts& cost) {
+    const BuildRef* first = buffers.from + s.begin;
+    const float half_area = bounds.box.half_area();
+    const bool leaf = fits_leaf(first, s.count, bvh_.mixed);
+    const float as_leaf = leaf ? half_area * leaf_cost(first->kind()) : kInfinity;
+    if (s.count == 1) {
+      settle(s, buffers);
+      cost.fill(as_leaf);
+      return;
+    }
+    BinaryNode& node = bvh_.nodes[s.node];
+    bounds.box.v.store(node.lo.data()); // the lanes to spare follow
+    if (leaf && quality_ == BuildQuality::fast) {
+      settle(s, buffers);
+      return;
+    }
+    const Sides sides = split(s, buffers, bounds, depth, leaf);
+    if (sides.left_count == 0) {
+      settle(s, buffers);
+      cost.fill(as_leaf);
+      node.plan = CollapsePlan::leaf().bits;
+      return;
+    }
+    node.left_count = sides.left_count;
+    Subtree left = bvh_.left(s), right = bvh_.right(s);
+    ForestCosts left_cost, right_cost;
+    if (s.count >= kTaskRange) {
+#pragma omp task default(shared)
+      build_subtree(left, sides.buffers, sides.left, depth + 1, left_cost);
+      build_subtree(right, sides.buffers, sides.right, depth + 1, right_cost);
 #pragma omp taskwait
     } else {
-      build_range(left_node, begin, middle, left, depth + 1);
-      build_range(right_node, middle, end, right, depth + 1);
+      build_range(left, sides.buffers, sides.left, depth + 1, left_cost);
+      build_range(right, sides.buffers, sides.right, depth + 1, right_cost);
     }
+    if (quality_ == BuildQuality::high)
+      node.plan = plan_node(half_area, as_leaf, left_cost, right_cost, cost).bits;
   }
 
   BinaryBvh& bvh_;
   BuildQuality quality_;
   const BuildStage& stage_;
+  HugeVector<BuildRef> other_;
 };
 
 } // namespace
 
-BinaryBvh build_binary_bvh(std::vector<BuildRef> refs, BuildQuality quality, Progress* progress) {
+BinaryBvh build_binary_bvh(HugeVector<BuildRef> refs, const RangeBounds& bounds, bool mixed,
+                           BuildQuality quality, Progress* progress) {
   BinaryBvh bvh;
-  bvh.nodes = std::make_unique_for_overwrite<BinaryNode[]>(2 * refs.size() - 1);
+  bvh.nodes.resize(std::max<std::size_t>(refs.size(), 2) - 1);
   bvh.refs = std::move(refs);
-  Builder(bvh, quality, BuildStage(progress, StageWork::binary)).build();
+  bvh.mixed = mixed;
+  Builder(bvh, quality, BuildStage(progress, StageWork::binary)).build(bounds);
   return bvh;
 }
 

@@ -4,56 +4,123 @@
 // Hierarchies").
 
 #include "accel/accel.h"
+#include "accel/huge_pages.h"
 #include "accel/layout.h"
 #include "core/progress.h"
 
-#include <memory>
-#include <vector>
-
 namespace candela::accel_detail {
 
-/// A primitive as the builder sees it: a box and what to call it.
-struct alignas(32) BuildRef {
-  std::array<float, 3> lo;
-  std::uint32_t index; ///< into the input array of its kind
-  std::array<float, 3> hi;
-  LeafKind kind;
-};
+/// A box as one vector of eight floats, x y z of the lower corner, a lane to spare, x y z of the *negated*
+/// upper corner, a lane to spare: to grow it is one minimum instead of a minimum and a maximum.
+struct BuildBox {
+  simd::Float8 v{kInfinity};
 
-/// A node over refs [begin, begin + count). Nodes lie in preorder with room for all the nodes that the range
-/// could need: the left child of node i is i + 1, the right one i + 2 * (count of the left one). So the place
-/// of a node depends on the input alone, and threads that build subtrees need not agree on anything.
-struct alignas(32) BinaryNode {
-  std::array<float, 3> lo;
-  std::uint32_t begin;
-  std::array<float, 3> hi;
-  std::uint32_t count : 28;
-  std::uint32_t leaf : 1;
-  std::uint32_t mixed : 1; ///< more than one kind of primitive
-
+  void grow(simd::Float8 box) { v = min(box, v); }
+  void grow(const BuildBox& box) { grow(box.v); }
+  simd::Vec4 lo() const { return v.lower(); }
+  simd::Vec4 hi() const { return -v.upper(); }
+  /// Products of two extents at a time, so it does not matter that these are negated.
   float half_area() const {
-    float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];
-    return x * y + y * z + z * x;
+    simd::Vec4 d = v.lower() + v.upper();
+    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
   }
 };
 
-inline constexpr std::size_t kMaxPrimitives = (std::size_t{1} << 28) - 1;
+/// A primitive as the builder sees it: a box (as in BuildBox) and, in the lanes to spare, what to call it.
+/// There a bit makes normal floats of all numbers: arithmetic with denormal ones, which small integers look
+/// like, is slow.
+struct alignas(32) BuildRef {
+  std::array<float, 3> lo;
+  std::uint32_t tagged_index;
+  std::array<float, 3> negated_hi;
+  std::uint32_t tagged_kind;
 
-struct BinaryBvh {
-  std::unique_ptr<BinaryNode[]> nodes; ///< sparse, see above; nodes[0] is the root
-  std::vector<BuildRef> refs;          ///< reordered
-
-  std::uint32_t left(std::uint32_t node) const { return node + 1; }
-  std::uint32_t right(std::uint32_t node) const { return node + 2 * nodes[node + 1].count; }
+  static constexpr std::uint32_t kTag = 1u << 30;
+  static BuildRef make(const Bounds3& b, std::uint32_t index, LeafKind kind) {
+    return {{b.lo.x, b.lo.y, b.lo.z},
+            index | kTag,
+            {-b.hi.x, -b.hi.y, -b.hi.z},
+            static_cast<std::uint32_t>(kind) | kTag};
+  }
+  std::uint32_t index() const { return tagged_index & ~kTag; } ///< into the input array of its kind
+  LeafKind kind() const { return static_cast<LeafKind>(tagged_kind & ~kTag); }
+  simd::Float8 box() const { return simd::Float8::load(lo.data()); }
 };
 
-/// refs is not empty and its boxes are finite. high builds down to single primitives, fast stops at what fits
-/// a pack. Throws Cancelled.
-BinaryBvh build_binary_bvh(std::vector<BuildRef> refs, BuildQuality quality, Progress* progress = nullptr);
+/// The sum of the corners of a ref's box, twice its centroid.
+inline simd::Vec4 twice_centroid(simd::Float8 box) { return box.lower() - box.upper(); }
+
+struct CentroidBounds {
+  simd::Vec4 lo{kInfinity, kInfinity, kInfinity, kInfinity}, hi = -lo; ///< of twice the centroids
+
+  /// Unless c is NaN.
+  void grow(simd::Vec4 c) { lo = simd::min4(c, lo), hi = simd::max4(c, hi); }
+  void merge(const CentroidBounds& b) { lo = simd::min4(b.lo, lo), hi = simd::max4(b.hi, hi); }
+};
+
+/// Of a range of refs.
+struct RangeBounds {
+  BuildBox box;
+  CentroidBounds centroids;
+
+  void grow(const BuildRef& ref) {
+    simd::Float8 b = ref.box();
+    box.grow(b);
+    centroids.grow(twice_centroid(b));
+  }
+  void merge(const RangeBounds& b) { box.grow(b.box), centroids.merge(b.centroids); }
+};
+
+/// An inner node.
+struct alignas(32) BinaryNode {
+  std::array<float, 3> lo;
+  std::uint32_t plan; ///< what the wide tree makes of it, see CollapsePlan
+  std::array<float, 3> negated_hi;
+  std::uint32_t left_count; ///< primitives below the left child; unset in the leaves of a fast build
+
+  simd::Float8 box() const { return simd::Float8::load(lo.data()); }
+};
+
+/// Names a node or a single ref: refs [begin, begin + count). Inner nodes lie in preorder with room for all
+/// that the range could need, count - 1: so the place of a node depends on the input alone, and threads that
+/// build subtrees need not agree on anything.
+struct Subtree {
+  std::uint32_t node, begin, count;
+};
+
+inline constexpr std::size_t kMaxPrimitives = (std::size_t{1} << 28) - 1;
 
 /// The most primitives of a kind that a leaf holds.
 constexpr std::uint32_t leaf_capacity(LeafKind kind) {
   return kind == LeafKind::instance ? 1 : static_cast<std::uint32_t>(kWidth);
 }
+
+struct BinaryBvh {
+  HugeVector<BinaryNode> nodes; ///< see Subtree
+  HugeVector<BuildRef> refs;    ///< reordered
+  bool mixed = false;           ///< there are refs of more than one kind
+
+  Subtree root() const { return {0, 0, static_cast<std::uint32_t>(refs.size())}; }
+  Subtree left(Subtree s) const { return {s.node + 1, s.begin, nodes[s.node].left_count}; }
+  Subtree right(Subtree s) const {
+    std::uint32_t left_count = nodes[s.node].left_count;
+    return {s.node + left_count, s.begin + left_count, s.count - left_count};
+  }
+  BuildBox box(Subtree s) const { return {s.count == 1 ? refs[s.begin].box() : nodes[s.node].box()}; }
+  LeafKind kind(Subtree s) const { return refs[s.begin].kind(); }
+};
+
+/// Whether count refs at `refs` make up a leaf.
+inline bool fits_leaf(const BuildRef* refs, std::uint32_t count, bool mixed) {
+  if (count > leaf_capacity(refs->kind())) return false;
+  for (std::uint32_t i = 1; mixed && i < count; ++i)
+    if (refs[i].tagged_kind != refs->tagged_kind) return false;
+  return true;
+}
+
+/// bounds are those of all refs, of which there is one at least; their boxes are finite. high builds down to
+/// single primitives and plans the wide tree, fast stops at what fits a leaf. Throws Cancelled.
+BinaryBvh build_binary_bvh(HugeVector<BuildRef> refs, const RangeBounds& bounds, bool mixed,
+                           BuildQuality quality, Progress* progress = nullptr);
 
 } // namespace candela::accel_detail

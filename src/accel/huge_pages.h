@@ -1,11 +1,11 @@
 #pragma once
 // An allocator for the arrays that rays jump about in: in huge pages a large tree needs few entries of the
-// address translation cache. On the 1.3-million-triangle sphere of traversal_bench that is worth GAIN of the
-// rays.
+// address translation cache.
 
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+#include <utility>
 #include <vector>
 
 #if defined(__linux__)
@@ -35,6 +35,15 @@ struct HugePageAllocator {
   void deallocate(T* p, std::size_t count) {
     std::size_t bytes = count * sizeof(T);
     ::operator delete (p, std::align_val_t{bytes < kPage ? alignof(T) : kPage});
+  }
+  /// Whoever resizes an array of these writes all of it: leave numbers unset.
+  template <class U>
+  void construct(U* p) {
+    ::new (static_cast<void*>(p)) U;
+  }
+  template <class U, class... Arguments>
+  void construct(U* p, Arguments&&... arguments) {
+    ::new (static_cast<void*>(p)) U(std::forward<Arguments>(arguments)...);
   }
   bool operator==(const HugePageAllocator&) const { return true; }
 

@@ -11,7 +11,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
+#include <memory>
 
 #if defined(__SSE2__)
 #if defined(__GNUC__) && !defined(__clang__)
@@ -70,11 +72,15 @@ struct PortableFloat8 {
   PortableFloat8() = default;
   PortableFloat8(Half low, Half high) : lo(low), hi(high) {}
   explicit PortableFloat8(float x) : lo{x, x, x, x}, hi{x, x, x, x} {}
-  /// p is aligned to 32 bytes.
+  /// p is aligned to 32 bytes. By memcpy, for a lane may be something else than a float.
   static PortableFloat8 load(const float* p) {
-    return {*reinterpret_cast<const Half*>(p), *reinterpret_cast<const Half*>(p + 4)};
+    PortableFloat8 result;
+    std::memcpy(&result, std::assume_aligned<32>(p), sizeof(result));
+    return result;
   }
-  void store(float* p) const { *reinterpret_cast<Half*>(p) = lo, *reinterpret_cast<Half*>(p + 4) = hi; }
+  void store(float* p) const { std::memcpy(std::assume_aligned<32>(p), this, sizeof(*this)); }
+  Vec4 lower() const { return lo; } ///< lanes 0 to 3
+  Vec4 upper() const { return hi; } ///< lanes 4 to 7
 
   friend PortableFloat8 operator+(PortableFloat8 a, PortableFloat8 b) { return {a.lo + b.lo, a.hi + b.hi}; }
   friend PortableFloat8 operator-(PortableFloat8 a, PortableFloat8 b) { return {a.lo - b.lo, a.hi - b.hi}; }
@@ -131,6 +137,8 @@ struct AvxFloat8 {
   explicit AvxFloat8(float x) : v(_mm256_set1_ps(x)) {}
   static AvxFloat8 load(const float* p) { return _mm256_load_ps(p); }
   void store(float* p) const { _mm256_store_ps(p, v); }
+  Vec4 lower() const { return reinterpret_cast<Vec4>(_mm256_castps256_ps128(v)); }
+  Vec4 upper() const { return reinterpret_cast<Vec4>(_mm256_extractf128_ps(v, 1)); }
 
   friend AvxFloat8 operator+(AvxFloat8 a, AvxFloat8 b) { return _mm256_add_ps(a.v, b.v); }
   friend AvxFloat8 operator-(AvxFloat8 a, AvxFloat8 b) { return _mm256_sub_ps(a.v, b.v); }

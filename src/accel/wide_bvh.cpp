@@ -1,202 +1,255 @@
 #include "accel/wide_bvh.h"
 
+#include "accel/build_stage.h"
+#include "accel/collapse_plan.h"
+
 #include <algorithm>
 
 namespace candela::accel_detail {
 
 namespace {
 
-constexpr std::uint32_t kTaskRange = 4096;
+/// The binary nodes that become the children of a wide node.
+struct Children {
+  std::array<Subtree, kWidth> subtree;
+  std::size_t count = 0;
+};
 
-bool fits_leaf(const BinaryBvh& bvh, const BinaryNode& node) {
-  return !node.mixed && node.count <= leaf_capacity(bvh.refs[node.begin].kind);
-}
-
-} // namespace
-
-CollapsePlan::CollapsePlan(const BinaryBvh& bvh, BuildQuality quality, const BuildStage& stage)
-    : bvh_(bvh), stage_(stage) {
-  if (quality == BuildQuality::fast) {
-    stage_.done(bvh.refs.size());
-    return;
-  }
-  decisions_ = std::make_unique_for_overwrite<std::uint32_t[]>(2 * bvh.refs.size() - 1);
-#pragma omp parallel if (bvh.refs.size() >= kTaskRange)
-#pragma omp single
-  plan_subtree(0);
-  stage_.check();
-}
-
-/// One that may be a task of its own. Cancelled, it decides nothing.
-CollapsePlan::Costs CollapsePlan::plan_subtree(std::uint32_t node) {
-  if (stage_.cancelled()) return {};
-  const Costs costs = plan(node);
-  if (std::uint32_t count = bvh_.nodes[node].count; count < kTaskRange) stage_.done(count);
-  return costs;
-}
-
-bool CollapsePlan::is_leaf(std::uint32_t node) const {
-  return bvh_.nodes[node].leaf || (decisions_ && decisions_[node] & 1);
-}
-
-// cost(n, 1) = min(leaf(n), area(n) * kNodeCost + split(n, 8))
-// cost(n, i) = min(split(n, i), cost(n, i - 1))             for 1 < i < 8
-// split(n, i) = min over 0 < k < i of cost(left, k) + cost(right, i - k)
-CollapsePlan::Costs CollapsePlan::plan(std::uint32_t index) {
-  const BinaryNode& node = bvh_.nodes[index];
-  float leaf = fits_leaf(bvh_, node) ? node.half_area() * leaf_cost(bvh_.refs[node.begin].kind) : kInfinity;
-  Costs cost;
-  if (node.leaf) {
-    decisions_[index] = 1;
-    cost.fill(leaf);
-    return cost;
-  }
-  std::uint32_t left_index = bvh_.left(index), right_index = bvh_.right(index);
-  Costs left, right;
-  if (node.count >= kTaskRange) {
-#pragma omp task default(shared) firstprivate(left_index)
-    left = plan_subtree(left_index);
-    right = plan_subtree(right_index);
-#pragma omp taskwait
-  } else {
-    left = plan(left_index), right = plan(right_index);
-  }
-
-  std::uint32_t decision = 0;
-  auto split = [&](std::size_t slots) {
-    float best = left[1] + right[slots - 1];
-    std::size_t left_slots = 1;
-    for (std::size_t k = 2; k < slots; ++k)
-      if (float c = left[k] + right[slots - k]; c < best) best = c, left_slots = k;
-    return std::pair(best, static_cast<std::uint32_t>(left_slots));
-  };
-  // The nibble for eight slots is the top one, at 4 * 7: the one for a single slot is the leaf bit.
-  auto [all, all_left] = split(kWidth);
-  decision |= all_left << 4 * (kWidth - 1);
-  float inner = node.half_area() * kNodeCost + all;
-  if (leaf <= inner) decision |= 1;
-  cost[0] = 0;
-  cost[1] = std::min(leaf, inner);
-  for (std::size_t slots = 2; slots < kWidth; ++slots) {
-    auto [c, left_slots] = split(slots);
-    cost[slots] = std::min(c, cost[slots - 1]);
-    if (c < cost[slots - 1]) decision |= left_slots << 4 * (slots - 1);
-  }
-  decisions_[index] = decision;
-  return cost;
-}
-
-void CollapsePlan::distribute(std::uint32_t node, int slots, std::array<std::uint32_t, kWidth>& result,
-                              int& count) const {
-  int left_slots = 0;
-  while (slots > 1) {
-    left_slots = static_cast<int>(decisions_[node] >> 4 * (slots - 1) & 15);
-    if (left_slots) break;
-    --slots;
-  }
-  if (slots == 1) {
-    result[static_cast<std::size_t>(count++)] = node;
-    return;
-  }
-  distribute(bvh_.left(node), left_slots, result, count);
-  distribute(bvh_.right(node), slots - left_slots, result, count);
-}
-
-void CollapsePlan::open_largest(std::uint32_t node, std::array<std::uint32_t, kWidth>& result,
-                                int& count) const {
-  result[0] = bvh_.left(node), result[1] = bvh_.right(node);
-  count = 2;
-  while (count < kWidth) {
-    int widest = -1;
-    float area = -1;
-    for (int i = 0; i < count; ++i) {
-      const BinaryNode& child = bvh_.nodes[result[static_cast<std::size_t>(i)]];
-      if (!child.leaf && child.half_area() > area) widest = i, area = child.half_area();
-    }
-    if (widest < 0) break;
-    std::uint32_t opened = result[static_cast<std::size_t>(widest)];
-    result[static_cast<std::size_t>(widest)] = bvh_.left(opened);
-    result[static_cast<std::size_t>(count++)] = bvh_.right(opened);
-  }
-}
-
-int CollapsePlan::children(std::uint32_t node, std::array<std::uint32_t, kWidth>& result) const {
-  int count = 0;
-  if (decisions_) {
-    int left_slots = static_cast<int>(decisions_[node] >> 4 * (kWidth - 1));
-    distribute(bvh_.left(node), left_slots, result, count);
-    distribute(bvh_.right(node), kWidth - left_slots, result, count);
-  } else {
-    open_largest(node, result, count);
-  }
-  return count;
-}
-
-namespace {
-
-class Emitter {
+/// Reads what the builder decided.
+class Collapse {
 public:
-  Emitter(const BinaryBvh& bvh, const CollapsePlan& plan, WideBvh& wide, const BuildStage& stage)
-      : bvh_(bvh), plan_(plan), wide_(wide), stage_(stage) {}
+  Collapse(const BinaryBvh& bvh, BuildQuality quality) : bvh_(bvh), quality_(quality) {}
 
-  /// The whole tree.
-  ChildRef emit() {
-    const ChildRef root = emit(0, 1);
-    if (bvh_.nodes[0].count < kTaskRange) stage_.done(bvh_.nodes[0].count);
-    return root;
+  bool is_leaf(const Subtree& s) const {
+    if (s.count == 1) return true;
+    if (quality_ == BuildQuality::fast) return fits_leaf(&bvh_.refs[s.begin], s.count, bvh_.mixed);
+    return plan(s).is_leaf();
+  }
+
+  Children children(const Subtree& s) const {
+    Children result;
+    if (quality_ == BuildQuality::high) {
+      int left_slots = plan(s).left_slots(kWidth);
+      distribute(bvh_.left(s), left_slots, result);
+      distribute(bvh_.right(s), kWidth - left_slots, result);
+    } else {
+      open_largest(s, result);
+    }
+    return result;
   }
 
 private:
-  ChildRef emit(std::uint32_t node, int depth) {
-    if (plan_.is_leaf(node)) return emit_leaf(bvh_.nodes[node]);
-    wide_.depth = std::max(wide_.depth, depth);
-    wide_.sah_cost += bvh_.nodes[node].half_area() * kNodeCost;
-    auto index = static_cast<std::uint32_t>(wide_.nodes.size());
-    WideNode empty;
-    for (auto& axis : empty.box) axis[0].fill(kInfinity), axis[1].fill(-kInfinity);
-    wide_.nodes.push_back(empty);
-    const bool large = bvh_.nodes[node].count >= kTaskRange;
-    if (large) stage_.check();
-    std::array<std::uint32_t, kWidth> children;
-    auto count = static_cast<std::size_t>(plan_.children(node, children));
-    for (std::size_t i = 0; i < count; ++i) {
-      const BinaryNode& child = bvh_.nodes[children[i]];
-      for (std::size_t a = 0; a < 3; ++a) {
-        wide_.nodes[index].box[a][0][i] = child.lo[a];
-        wide_.nodes[index].box[a][1][i] = child.hi[a];
-      }
-      ChildRef ref = emit(children[i], depth + 1);
-      wide_.nodes[index].child[i] = ref; // not before: the vector may have moved
-      if (large && child.count < kTaskRange) stage_.done(child.count);
+  CollapsePlan plan(const Subtree& s) const { return {bvh_.nodes[s.node].plan}; }
+
+  void distribute(const Subtree& s, int slots, Children& result) const {
+    int left_slots = 0;
+    if (s.count > 1)
+      for (; slots > 1 && !left_slots; slots -= !left_slots) left_slots = plan(s).left_slots(slots);
+    if (!left_slots) {
+      result.subtree[result.count++] = s;
+      return;
     }
-    // No ray meets an empty slot, but one of nonsense (NaN) must find a child there all the same.
-    for (std::size_t i = count; i < kWidth; ++i) wide_.nodes[index].child[i] = wide_.nodes[index].child[0];
+    distribute(bvh_.left(s), left_slots, result);
+    distribute(bvh_.right(s), slots - left_slots, result);
+  }
+
+  void open_largest(const Subtree& s, Children& result) const {
+    std::array<float, kWidth> area; // -1: not to be opened
+    auto set = [&](std::size_t i, const Subtree& child) {
+      result.subtree[i] = child;
+      area[i] = is_leaf(child) ? -1 : bvh_.box(child).half_area();
+    };
+    set(0, bvh_.left(s)), set(1, bvh_.right(s));
+    result.count = 2;
+    while (result.count < kWidth) {
+      auto widest = static_cast<std::size_t>(
+          std::max_element(area.begin(), area.begin() + static_cast<std::ptrdiff_t>(result.count)) -
+          area.begin());
+      if (area[widest] < 0) break;
+      const Subtree opened = result.subtree[widest];
+      set(widest, bvh_.left(opened)), set(result.count++, bvh_.right(opened));
+    }
+  }
+
+  const BinaryBvh& bvh_;
+  BuildQuality quality_;
+};
+
+/// A piece of the wide tree, whose indices count from its own beginning.
+struct Fragment {
+  Subtree from;
+  int depth; ///< of its root
+  WideBvh wide;
+};
+
+WideNode make_node(const BinaryBvh& bvh, const Children& children) {
+  WideNode node;
+  for (auto& axis : node.box) axis[0].fill(kInfinity), axis[1].fill(-kInfinity);
+  for (std::size_t i = 0; i < children.count; ++i) {
+    const BuildBox box = bvh.box(children.subtree[i]);
+    const simd::Vec4 lo = box.lo(), hi = box.hi();
+    for (int a = 0; a < 3; ++a) {
+      auto axis = static_cast<std::size_t>(a);
+      node.box[axis][0][i] = lo[a], node.box[axis][1][i] = hi[a];
+    }
+  }
+  return node;
+}
+
+/// No ray meets an empty slot, but one of nonsense (NaN) must find a child there all the same.
+void fill_empty_slots(WideNode& node, std::size_t used) {
+  for (std::size_t i = used; i < kWidth; ++i) node.child[i] = node.child[0];
+}
+
+class FragmentEmitter {
+public:
+  FragmentEmitter(const BinaryBvh& bvh, const Collapse& plan, WideBvh& wide)
+      : bvh_(bvh), plan_(plan), wide_(wide) {}
+
+  ChildRef emit(const Subtree& s, int depth) {
+    if (plan_.is_leaf(s)) return emit_leaf(s);
+    wide_.depth = std::max(wide_.depth, depth);
+    wide_.sah_cost += bvh_.box(s).half_area() * kNodeCost;
+    const auto index = static_cast<std::uint32_t>(wide_.nodes.size());
+    const Children children = plan_.children(s);
+    wide_.nodes.push_back(make_node(bvh_, children));
+    for (std::size_t i = 0; i < children.count; ++i) {
+      ChildRef ref = emit(children.subtree[i], depth + 1);
+      wide_.nodes[index].child[i] = ref; // not before: the vector may have moved
+    }
+    fill_empty_slots(wide_.nodes[index], children.count);
     return ChildRef::node(index);
   }
 
-  ChildRef emit_leaf(const BinaryNode& node) {
-    LeafKind kind = bvh_.refs[node.begin].kind;
-    std::uint32_t pack = wide_.packs[static_cast<std::size_t>(kind)]++;
-    wide_.leaves.push_back({kind, pack, node.begin, node.count});
-    wide_.sah_cost += node.half_area() * leaf_cost(kind);
+private:
+  ChildRef emit_leaf(const Subtree& s) {
+    const LeafKind kind = bvh_.kind(s);
+    const std::uint32_t pack = wide_.packs[static_cast<std::size_t>(kind)]++;
+    wide_.leaves.push_back({kind, pack, s.begin, s.count});
+    wide_.sah_cost += bvh_.box(s).half_area() * leaf_cost(kind);
     return ChildRef::leaf(kind, pack);
   }
 
   const BinaryBvh& bvh_;
-  const CollapsePlan& plan_;
+  const Collapse& plan_;
   WideBvh& wide_;
-  const BuildStage& stage_;
+};
+
+/// Below, a subtree is a fragment: emitted by one thread. What is cut depends on the input alone.
+constexpr std::uint32_t kFragmentRange = 1u << 14;
+
+/// The wide tree of what lies above the fragments, in which a child is named by its place in `order`.
+class TopEmitter {
+public:
+  TopEmitter(const BinaryBvh& bvh, const Collapse& plan) : bvh_(bvh), plan_(plan) {}
+
+  /// A node of the top, or else a fragment; both in preorder.
+  struct Item {
+    bool is_fragment;
+    std::size_t index;
+  };
+  std::vector<Item> order;
+  std::vector<WideNode> nodes;
+  std::vector<Fragment> fragments;
+  double sah_cost = 0;
+
+  std::uint32_t emit(const Subtree& s, int depth) {
+    const auto place = static_cast<std::uint32_t>(order.size());
+    if (s.count < kFragmentRange) {
+      order.push_back({true, fragments.size()});
+      fragments.push_back({s, depth, {}});
+      return place;
+    }
+    const std::size_t index = nodes.size();
+    order.push_back({false, index});
+    const Children children = plan_.children(s);
+    nodes.push_back(make_node(bvh_, children));
+    sah_cost += bvh_.box(s).half_area() * kNodeCost;
+    for (std::size_t i = 0; i < children.count; ++i) {
+      std::uint32_t child = emit(children.subtree[i], depth + 1);
+      nodes[index].child[i] = ChildRef::node(child);
+    }
+    fill_empty_slots(nodes[index], children.count);
+    return place;
+  }
+
+private:
+  const BinaryBvh& bvh_;
+  const Collapse& plan_;
+};
+
+/// Where the nodes and packs of a fragment begin in the whole.
+struct Base {
+  std::uint32_t node = 0;
+  std::size_t leaf = 0;
+  std::array<std::uint32_t, 4> packs{};
+
+  ChildRef moved(ChildRef ref) const {
+    return {ref.bits + (ref.is_leaf() ? packs[static_cast<std::size_t>(ref.kind())] : node)};
+  }
 };
 
 } // namespace
 
 WideBvh collapse(const BinaryBvh& bvh, BuildQuality quality, Progress* progress) {
+  const BuildStage stage(progress, StageWork::emit);
+  stage.check();
+  const Collapse plan(bvh, quality);
+  TopEmitter top(bvh, plan);
+  top.emit(bvh.root(), 1);
+  std::vector<Fragment>& fragments = top.fragments;
+#pragma omp parallel for schedule(dynamic, 1) if (fragments.size() > 1)
+  for (Fragment& fragment : fragments) {
+    if (stage.cancelled()) continue;
+    fragment.wide.root = FragmentEmitter(bvh, plan, fragment.wide).emit(fragment.from, fragment.depth);
+    stage.done(fragment.from.count);
+  }
+  stage.check();
+
   WideBvh wide;
-  const BuildStage planning(progress, StageWork::plan), emitting(progress, StageWork::emit);
-  CollapsePlan plan(bvh, quality, planning);
-  wide.root = Emitter(bvh, plan, wide, emitting).emit();
-  if (float area = bvh.nodes[0].half_area(); area > 0) wide.sah_cost /= area;
-  wide.nodes.shrink_to_fit();
+  wide.sah_cost = top.sah_cost;
+  std::vector<Base> base(top.order.size());
+  std::vector<ChildRef> ref(top.order.size());
+  Base end;
+  for (std::size_t i = 0; i < top.order.size(); ++i) {
+    base[i] = end;
+    if (!top.order[i].is_fragment) {
+      ref[i] = ChildRef::node(end.node++);
+      continue;
+    }
+    const WideBvh& piece = fragments[top.order[i].index].wide;
+    ref[i] = end.moved(piece.root);
+    end.node += static_cast<std::uint32_t>(piece.nodes.size());
+    end.leaf += piece.leaves.size();
+    for (std::size_t kind = 0; kind < end.packs.size(); ++kind) end.packs[kind] += piece.packs[kind];
+    wide.depth = std::max(wide.depth, piece.depth);
+    wide.sah_cost += piece.sah_cost;
+  }
+  if (float area = bvh.box(bvh.root()).half_area(); area > 0) wide.sah_cost /= area;
+  wide.root = ref[0];
+  wide.packs = end.packs;
+  wide.nodes.resize(end.node);
+  wide.leaves.resize(end.leaf);
+#pragma omp parallel for schedule(dynamic, 1) if (fragments.size() > 1)
+  for (std::size_t i = 0; i < top.order.size(); ++i) {
+    WideNode* node = wide.nodes.data() + base[i].node;
+    if (!top.order[i].is_fragment) {
+      *node = top.nodes[top.order[i].index];
+      for (ChildRef& child : node->child) child = ref[child.index()];
+      continue;
+    }
+    WideBvh& piece = fragments[top.order[i].index].wide;
+    for (const WideNode& from : piece.nodes) {
+      *node = from;
+      for (ChildRef& child : node->child) child = base[i].moved(child);
+      ++node;
+    }
+    LeafRange* out = wide.leaves.data() + base[i].leaf;
+    for (LeafRange leaf : piece.leaves) {
+      leaf.pack += base[i].packs[static_cast<std::size_t>(leaf.kind)];
+      *out++ = leaf;
+    }
+  }
   return wide;
 }
 

@@ -2,6 +2,7 @@
 // What traversal_bench looks at: scenes made in code, of few and of many triangles, and a scanned mesh.
 
 #include "core/bounds.h"
+#include "core/hash.h"
 #include "core/math.h"
 
 #include <array>
@@ -85,6 +86,24 @@ inline BenchScene displaced_sphere(std::uint32_t rings) {
       m.triangles.push_back({a, b, b + sectors});
       m.triangles.push_back({a, b + sectors, a + sectors});
     }
+  return scene;
+}
+
+/// Long thin triangles in all directions: what boxes fit worst.
+inline BenchScene needles(std::uint32_t count) {
+  BenchScene scene{"needles", {}, {{0, 0.3f, -2.6f}, {0, 0, 0}, radians(40), {1, 3, -2}, 1}};
+  TriangleMesh& m = scene.mesh;
+  auto random = [n = 0u]() mutable { return 2 * to_unit_float(hash32(++n)) - 1; };
+  auto random_vec = [&] {
+    float x = random(), y = random();
+    return vec3(x, y, random());
+  };
+  for (std::uint32_t i = 0; i < count; ++i) {
+    vec3 c = 0.8f * random_vec(), along = 0.15f * random_vec(), across = 0.004f * random_vec();
+    auto first = static_cast<std::uint32_t>(m.vertices.size());
+    m.vertices.insert(m.vertices.end(), {c - along, c + along, c + along + across});
+    m.triangles.push_back({first, first + 1, first + 2});
+  }
   return scene;
 }
 

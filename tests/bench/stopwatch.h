@@ -1,0 +1,31 @@
+#pragma once
+// How long a build takes.
+
+#include <chrono>
+#include <ctime>
+
+namespace candela::bench {
+
+/// In seconds. On a machine that others use, too, the processor's time (of all threads) is the steadier one.
+struct BuildTime {
+  double wall = 1e30, processor = 1e30;
+
+  void keep_least(BuildTime t) {
+    wall = t.wall < wall ? t.wall : wall;
+    processor = t.processor < processor ? t.processor : processor;
+  }
+};
+
+class Stopwatch {
+public:
+  BuildTime elapsed() const {
+    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(),
+            static_cast<double>(std::clock() - processor_start_) / CLOCKS_PER_SEC};
+  }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::clock_t processor_start_ = std::clock();
+};
+
+} // namespace candela::bench
