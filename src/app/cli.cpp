@@ -1,5 +1,6 @@
 #include "app/cli.h"
 
+#include "app/bench_command.h"
 #include "app/compare_command.h"
 #include "app/convert_command.h"
 #include "app/gallery_command.h"
@@ -118,6 +119,24 @@ int run(int argc, char** argv) {
 
   LabCommand lab(app);
 
+  InteractiveBenchOptions bench_options;
+  auto* bench = app.add_subcommand("bench", "Measure this machine with this program");
+  bench->require_subcommand(1);
+  auto* interactive = bench->add_subcommand(
+      "interactive", "From hand to picture: a scripted flight and edits in a real window (in memory where "
+                     "there is no display); ms to the first image, frames, shares of the cores");
+  add_common_options(*interactive, bench_options.scene);
+  interactive->add_option("--size", bench_options.size, "Size of the window, WxH; else 1280x720");
+  interactive->add_option("--repeats", bench_options.repeats, "Inputs of each kind")
+      ->check(CLI::Range(1, 1000));
+  interactive->add_option("--seconds", bench_options.seconds, "Of flight, and of refining undisturbed")
+      ->check(CLI::Range(0.1, 600.0));
+  interactive->add_option("--json", bench_options.json, "Write what was measured to this file");
+  interactive->add_flag("--short", bench_options.short_run, "A small window and few inputs: does it work?");
+  interactive->add_flag("--offscreen", bench_options.offscreen,
+                        "Draw into memory even if there is a display");
+  interactive->add_flag("--quiet", bench_options.quiet, "Say nothing but warnings and errors");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) { // --help, --version
@@ -133,6 +152,7 @@ int run(int argc, char** argv) {
   if (convert->parsed()) return run_convert(convert_options, converted);
   if (settings->parsed()) return run_settings(json, markdown);
   if (lab.parsed()) return lab.run();
+  if (interactive->parsed()) return run_interactive_bench(bench_options);
   return run_view(view_options, !no_preferences);
 }
 

@@ -4,11 +4,14 @@
 
 #include "core/math.h"
 
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace candela {
+
+struct Document;
 
 /// Keys by what is printed on a US keyboard; only those that the window or a text field knows.
 enum class Key : int {
@@ -81,7 +84,12 @@ struct CloseRequested {};
 /// All keys and buttons count as released: nobody flies on while another window has the keyboard.
 struct FocusLost {};
 
+/// An edit that no widget makes, as a widget's is taken in: for scripts that measure.
+struct DocumentEdited {
+  std::function<void(Document&)> apply;
+};
+
 using Event = std::variant<MouseMoved, MouseButtonChanged, MouseScrolled, KeyChanged, TextTyped, Resized,
-                           FilesDropped, CloseRequested, FocusLost>;
+                           FilesDropped, CloseRequested, FocusLost, DocumentEdited>;
 
 } // namespace candela

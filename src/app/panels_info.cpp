@@ -81,6 +81,17 @@ void statistics_panel(Ui& ui, ViewerState& state) {
   ui.readout("edit to image",
              status.first_image_ms < 0 ? "…" : fmt::format("{:.1f} ms", status.first_image_ms),
              "From the last edit that restarted to its first image");
+  const MeterReadings& meter = state.meter;
+  auto ms = [](double value) { return value > 0 ? fmt::format("{:.1f} ms", value) : std::string("…"); };
+  ui.readout("hand to picture", ms(meter.first_ms),
+             "From an input to its first picture on the screen; the median of the last 32");
+  ui.readout("hand to full picture", ms(meter.full_ms), "The same to one sample in every pixel");
+  ui.readout(
+      "frame", fmt::format("{}, 99 %: {}", ms(meter.frame_ms), ms(meter.frame_p99_ms)),
+      "Of the window, until it is on the screen: the median of the last 256, and what 99 % of them keep to");
+  ui.readout("cores rendering",
+             meter.render_share > 0 ? fmt::format("{:.0f} %", 100 * meter.render_share) : "…",
+             "CPU time of the threads that render, of all cores'; other programs take their part, too");
   ui.readout("restarts", fmt::format("{}", status.restarts), "Accumulations begun since the window opened");
   ui.readout("non-finite", fmt::format("{}", status.nonfinite),
              "Samples whose radiance was NaN or infinite; they are left out and counted");

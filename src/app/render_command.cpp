@@ -15,7 +15,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -50,27 +49,6 @@ private:
   void (*interrupt_)(int);
   void (*terminate_)(int);
 };
-
-/// Exactly `n` integers with `separator` between them.
-std::vector<int> integers(const std::string& text, char separator, std::size_t n, std::string_view option,
-                          std::string_view form) {
-  std::vector<int> out;
-  const char* p = text.data();
-  const char* end = p + text.size();
-  while (true) {
-    int value = 0;
-    auto [next, status] = std::from_chars(p, end, value);
-    if (status != std::errc()) break;
-    out.push_back(value);
-    p = next;
-    if (p == end || *p != separator) break;
-    ++p;
-  }
-  if (p != end || out.size() != n)
-    throw usage_error(fmt::format("{} {}", option, text), "it is not of the form",
-                      fmt::format("write {}", form));
-  return out;
-}
 
 void apply_options(const RenderOptions& o, Document& document, PassOptions& pass) {
   if (o.spp) document.settings.stop.spp = *o.spp;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdio>
 
 namespace candela {
@@ -40,6 +41,26 @@ LoadedScene load_scene(const SceneOptions& options) {
   if (auto problem = document_problem(scene.document); !problem.empty())
     throw Error(ExitCode::bad_input, fmt::format("{}: {}", path, problem));
   return scene;
+}
+
+std::vector<int> integers(const std::string& text, char separator, std::size_t n, std::string_view option,
+                          std::string_view form) {
+  std::vector<int> out;
+  const char* p = text.data();
+  const char* end = p + text.size();
+  while (true) {
+    int value = 0;
+    auto [next, status] = std::from_chars(p, end, value);
+    if (status != std::errc()) break;
+    out.push_back(value);
+    p = next;
+    if (p == end || *p != separator) break;
+    ++p;
+  }
+  if (p != end || out.size() != n)
+    throw usage_error(fmt::format("{} {}", option, text), "it is not of the form",
+                      fmt::format("write {}", form));
+  return out;
 }
 
 } // namespace candela

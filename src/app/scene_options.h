@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace candela {
@@ -16,6 +17,11 @@ struct SceneOptions {
   bool allow_outside = false;
   int threads = 0; ///< 0: every core
 };
+
+/// Exactly `n` integers with `separator` between them: the value of an option such as --size. `form` tells
+/// how it is written; a usage error if it is not.
+std::vector<int> integers(const std::string& text, char separator, std::size_t n, std::string_view option,
+                          std::string_view form);
 
 /// Reads the scene, prints its warnings to stderr, goes to the bookmark and applies the settings over what
 /// the file says.

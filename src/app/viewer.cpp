@@ -26,6 +26,12 @@ constexpr float kScaleReferenceWidth = 960, kScaleReferenceHeight = 540;
 constexpr double kHintSeconds = 10;
 constexpr double kNoticeSeconds = 6;
 constexpr int kFramesToSettle = 3;
+// Without a GPU every drawn frame is taken from the renderer; 30 a second look smooth, input may have 60.
+constexpr double kPictureInterval = 1 / 30.0;
+constexpr double kInputInterval = 1 / 60.0;
+/// Of the wall time, to draw a picture that only becomes less noisy.
+constexpr double kWindowShare = 0.06;
+constexpr double kSlowestRefining = 0.2;
 constexpr double kBusyRedrawSeconds = 0.25; // running numbers, blinking text cursors
 constexpr double kIdleRedrawSeconds = 5;
 
@@ -85,14 +91,17 @@ Viewer::~Viewer() {
   ImGui::DestroyContext(imgui_);
 }
 
-void Viewer::handle(Event event) { events_.push_back(std::move(event)); }
+void Viewer::handle(Event event) {
+  if (!input_since_) input_since_ = MeterClock::now();
+  events_.push_back(std::move(event));
+}
 
 std::string Viewer::title() const {
   return fmt::format("{}{} - Candela", scene_title(state_), state_.modified ? "*" : "");
 }
 
-void Viewer::frame(double now) {
-  const auto began = std::chrono::steady_clock::now();
+bool Viewer::frame(double now, bool may_wait) {
+  began_ = MeterClock::now();
   ImGui::SetCurrentContext(imgui_);
   if (first_frame_ < 0) first_frame_ = now;
   ImGuiIO& io = ImGui::GetIO();
@@ -120,7 +129,10 @@ void Viewer::frame(double now) {
     failed_generation_ = state_.status.submitted;
     state_.error = state_.status.error;
   }
-  viewport_.show(session_->display());
+  const std::uint64_t restarts_handed_in = meter_.submissions();
+  const std::shared_ptr<const DisplayImage> newest = session_->display();
+  const bool new_picture = newest != viewport_.shown();
+  viewport_.show(newest);
   state_.picture = viewport_.shown();
   update_compare();
 
@@ -145,7 +157,13 @@ void Viewer::frame(double now) {
   serve_compare_requests();
   ImGui::Render();
 
-  if (framebuffer_.x > 0 && framebuffer_.y > 0) {
+  // The picture of an input is only moments away, and drawing would take the cores from it.
+  const bool restarted = restarts_handed_in != meter_.submissions();
+  if (!owes_drawing_) owed_since_ = now;
+  owes_drawing_ =
+      may_wait && !new_picture && (restarted || owes_drawing_) && now < owed_since_ + kPictureInterval;
+  if (!owes_drawing_) drawn_at_ = now;
+  if (!owes_drawing_ && framebuffer_.x > 0 && framebuffer_.y > 0) {
     gl_.Viewport(0, 0, framebuffer_.x, framebuffer_.y);
     gl_.ClearColor(kBackgroundGrey, kBackgroundGrey, kBackgroundGrey, 1);
     gl_.Clear(GL_COLOR_BUFFER_BIT);
@@ -156,14 +174,62 @@ void Viewer::frame(double now) {
     draw_.draw(*ImGui::GetDrawData());
   }
   state_.frame_ms =
-      std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - began).count();
+      std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - began_).count();
+  if (events_.empty()) input_since_.reset();
+  return !owes_drawing_;
+}
+
+void Viewer::shown(WindowFrame frame) {
+  frame.rendering = state_.status.phase == SessionPhase::rendering;
+  meter_.add(frame);
+  frame_seconds_ += 0.2 * (frame.seconds - frame_seconds_);
+  session_->publish_every(refining_interval());
+  read_meter();
+  if (state_.compare.active || state_.status.phase == SessionPhase::failed)
+    meter_.give_up();
+  else if (state_.picture)
+    meter_.shown(*state_.picture->frame, MeterClock::now());
 }
 
 bool Viewer::wants_redraw() const {
-  return !events_.empty() || redraws_ > 0 || fly_command().any() || reader_.has_completions() ||
-         writer_.has_completions() || watch_.has_change() || inspector_.wants_redraw() || lab_.has_news() ||
-         session_->display() != viewport_.shown() || session_->status().phase != drawn_phase_ ||
-         comparison_wants_redraw();
+  return !events_.empty() || redraws_ > 0 || owes_drawing_ || fly_command().any() ||
+         reader_.has_completions() || writer_.has_completions() || watch_.has_change() ||
+         inspector_.wants_redraw() || lab_.has_news() || session_->display() != viewport_.shown() ||
+         session_->status().phase != drawn_phase_ || comparison_wants_redraw();
+}
+
+/// Once in a while: sorting costs, and numbers that flicker cannot be read.
+void Viewer::read_meter() {
+  constexpr double kEvery = 1;
+  const double seconds = now_ - meter_read_;
+  if (seconds < kEvery) return;
+  meter_read_ = now_;
+  const double cpu = session_->cpu_time().render, spent = cpu - std::exchange(meter_cpu_, cpu);
+  const double share = state_.meter.render_share;
+  state_.meter = meter_.readings();
+  const bool refines = state_.status.phase == SessionPhase::rendering && seconds < 2 * kEvery;
+  state_.meter.render_share = refines ? spent / (seconds * session_->threads()) : share;
+}
+
+bool Viewer::awaited_picture_is_there() const {
+  if (!meter_.waiting()) return false;
+  const auto newest = session_->display();
+  return newest && newest->frame->generation >= meter_.awaited();
+}
+
+double Viewer::next_frame() const {
+  if (!wants_redraw()) return now_ + idle_seconds();
+  double due = now_ + refining_interval();
+  if (awaited_picture_is_there()) due = drawn_at_ + kInputInterval; // perhaps at once
+  if (has_pending_events() || fly_command().any()) due = std::min(due, now_ + kInputInterval);
+  const bool coarse = state_.picture && state_.picture->frame->spp < 1;
+  if (owes_drawing_ || coarse || redraws_ > 0 || meter_.waiting())
+    due = std::min(due, (owes_drawing_ ? owed_since_ : drawn_at_) + kPictureInterval);
+  return due;
+}
+
+double Viewer::refining_interval() const {
+  return std::clamp(frame_seconds_ / kWindowShare, kPictureInterval, kSlowestRefining);
 }
 
 double Viewer::idle_seconds() const {
@@ -298,7 +364,10 @@ void Viewer::submit() {
   const bool build_well = built_fast_ && resting;
   if (!state_.edited && !build_well) return;
   built_fast_ = state_.objects_moving;
-  session_->submit(state_.document, built_fast_ ? BuildQuality::fast : BuildQuality::high);
+  const std::uint64_t generation =
+      session_->submit(state_.document, built_fast_ ? BuildQuality::fast : BuildQuality::high);
+  if (session_->status().restarting == generation)
+    meter_.submitted(generation, input_since_.value_or(began_));
   state_.edited = false;
 }
 

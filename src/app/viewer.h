@@ -13,6 +13,7 @@
 #include "app/gl.h"
 #include "app/imgui_draw.h"
 #include "app/inspector.h"
+#include "app/interaction_meter.h"
 #include "app/panels.h"
 #include "app/panels_lab.h"
 #include "app/preferences.h"
@@ -55,15 +56,24 @@ public:
 
   void handle(Event event);
 
-  /// Draws into the current framebuffer. `now` is any monotonic clock in seconds.
-  void frame(double now);
+  /// Takes in what happened and draws into the current framebuffer; `now` is any monotonic clock in seconds.
+  /// With `may_wait` it draws nothing, and returns false, where it has just handed in an edit whose picture
+  /// will come soon.
+  bool frame(double now, bool may_wait = false);
+
+  /// What frame() drew is on the screen.
+  void shown(WindowFrame frame);
 
   /// Whether frame() would show something new.
   bool wants_redraw() const;
+  /// When the next frame() is due, on its clock, if neither an event nor `wake` comes before.
+  double next_frame() const;
   /// Seconds that may pass until the next frame() if neither an event nor `wake` comes.
   double idle_seconds() const;
   /// Whether events wait that were held back because one frame can show one change of a button at a time.
   bool has_pending_events() const { return !events_.empty(); }
+  InteractionMeter& meter() { return meter_; }
+  ivec2 framebuffer() const { return framebuffer_; }
   bool wants_close() const { return wants_close_; }
   std::string title() const;
 
@@ -164,6 +174,10 @@ private:
   // viewer.cpp
   PixelRect single_picture_rect() const;
   void update_scale();
+  bool awaited_picture_is_there() const;
+  void read_meter();
+  /// Seconds between pictures that only have more samples.
+  double refining_interval() const;
   void draw_ui();
   void fit_film();
   void serve_requests();
@@ -186,7 +200,15 @@ private:
   ViewerState state_;
 
   std::deque<Event> events_;
-  struct FrameInput { // what this frame has taken from events_
+  std::optional<MeterClock::time_point> input_since_; ///< when the oldest event of this frame came
+  InteractionMeter meter_;
+  double meter_read_ = -1, meter_cpu_ = 0;
+  double drawn_at_ = -1;
+  bool owes_drawing_ = false; ///< since owed_since_: an edit was handed in instead
+  double owed_since_ = -1;
+  double frame_seconds_ = 0.005; ///< that a frame takes, smoothed
+  MeterClock::time_point began_; ///< the frame
+  struct FrameInput {            // what this frame has taken from events_
     bool moved = false;
     bool typed = false;
     bool scrolled = false;

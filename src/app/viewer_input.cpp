@@ -124,6 +124,10 @@ void Viewer::apply(const Event& event) {
                    if (!e.paths.empty()) state_.open_path = e.paths.front();
                  },
                  [&](const CloseRequested&) { state_.close_requested = true; },
+                 [&](const DocumentEdited& e) {
+                   e.apply(state_.document);
+                   state_.edited = true;
+                 },
                  [&](const FocusLost&) {
                    std::ranges::fill(io.KeysDown, false);
                    std::ranges::fill(io.MouseDown, false);

@@ -4,6 +4,7 @@
 #include "app/compare_state.h"
 #include "app/gizmo.h"
 #include "app/inspect_state.h"
+#include "app/interaction_meter.h"
 #include "app/orbit_camera.h"
 #include "app/selection.h"
 #include "app/transform_parts.h"
@@ -45,6 +46,7 @@ struct ViewerState {
 
   SessionStatus status;
   std::shared_ptr<const DisplayImage> picture; ///< the one on the screen; null before the first
+  MeterReadings meter;                         ///< from hand to picture, of late
   float frame_ms = 0;                          ///< CPU time that the last frame of the window took
   int loading = 0;                             ///< scenes being read
   std::string loading_path;

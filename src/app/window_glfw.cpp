@@ -14,10 +14,6 @@ namespace candela {
 
 namespace {
 
-// Without a GPU every drawn frame is taken from the renderer; 30 a second look smooth, input may have 60.
-constexpr double kPictureInterval = 1 / 30.0;
-constexpr double kInputInterval = 1 / 60.0;
-
 std::string glfw_problem() {
   const char* text = nullptr;
   glfwGetError(&text);
@@ -114,12 +110,13 @@ public:
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  void run();
+  void run(ViewerDriver* driver);
 
 private:
   void open(ivec2 size); ///< at scale 1
   void connect();
   void send_size();
+  void show();
   vec2 framebuffer_position(double x, double y) const;
   static Window& of(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
@@ -236,37 +233,28 @@ void Window::connect() {
   send_size();
 }
 
-void Window::run() {
-  double last = -1;
-  while (!viewer_->wants_close()) {
-    glfwPollEvents();
-    double now = glfwGetTime();
-    const double due = last + (viewer_->has_pending_events() ? kInputInterval : kPictureInterval);
-    if (viewer_->wants_redraw() && now < due) {
-      glfwWaitEventsTimeout(due - now); // an event or a new picture ends it early, and is looked at again
-      continue;
-    }
-    if (!viewer_->wants_redraw()) {
-      const double idle = std::max(last + viewer_->idle_seconds() - now, 0.0);
-      if (idle > 0) {
-        glfwWaitEventsTimeout(idle);
-        now = glfwGetTime();
-        if (!viewer_->wants_redraw() && now < last + viewer_->idle_seconds()) continue;
-      }
-    }
-    last = now;
-    viewer_->frame(now);
-    glfwSwapBuffers(window_);
+void Window::run(ViewerDriver* driver) {
+  const FrameHost host{[] { return glfwGetTime(); },
+                       [](double seconds) {
+                         if (seconds > 0)
+                           glfwWaitEventsTimeout(seconds);
+                         else
+                           glfwPollEvents();
+                       },
+                       [this] { show(); }};
+  run_frames(*viewer_, host, driver);
+}
 
-    const int cursor = ImGui::GetMouseCursor();
-    if (cursor != shown_cursor_ && cursor >= 0) {
-      glfwSetCursor(window_, cursors_[static_cast<std::size_t>(cursor)]);
-      shown_cursor_ = cursor;
-    }
-    if (std::string title = viewer_->title(); title != title_) {
-      title_ = std::move(title);
-      glfwSetWindowTitle(window_, title_.c_str());
-    }
+void Window::show() {
+  glfwSwapBuffers(window_);
+  const int cursor = ImGui::GetMouseCursor();
+  if (cursor != shown_cursor_ && cursor >= 0) {
+    glfwSetCursor(window_, cursors_[static_cast<std::size_t>(cursor)]);
+    shown_cursor_ = cursor;
+  }
+  if (std::string title = viewer_->title(); title != title_) {
+    title_ = std::move(title);
+    glfwSetWindowTitle(window_, title_.c_str());
   }
 }
 
@@ -274,6 +262,6 @@ void Window::run() {
 
 bool display_available() { return glfwInit() == GLFW_TRUE; }
 
-void run_window(ViewerOptions options) { Window(std::move(options)).run(); }
+void run_window(ViewerOptions options, ViewerDriver* driver) { Window(std::move(options)).run(driver); }
 
 } // namespace candela

@@ -1,6 +1,7 @@
 #pragma once
 // The window on the screen: GLFW's callbacks made into events for the Viewer.
 
+#include "app/frame_loop.h"
 #include "app/viewer.h"
 
 namespace candela {
@@ -9,8 +10,8 @@ namespace candela {
 /// as Xvfb starts anew, and refuses for a moment, when its last client leaves.
 bool display_available();
 
-/// Opens the window and returns when it is closed. An Error with ExitCode::display, cause and remedy if there
-/// is no display or no OpenGL 3.3.
-void run_window(ViewerOptions options);
+/// Opens the window and returns when it is closed, or when `driver` (null: nobody) is done. An Error with
+/// ExitCode::display, cause and remedy if there is no display or no OpenGL 3.3.
+void run_window(ViewerOptions options, ViewerDriver* driver = nullptr);
 
 } // namespace candela

@@ -90,4 +90,13 @@ ChiSquareResult chi_square_test(std::span<const double> observed, std::span<cons
   return result;
 }
 
+double percentile(std::span<const double> values, double percent) {
+  if (values.empty()) return 0;
+  std::vector<double> sorted(values.begin(), values.end());
+  std::ranges::sort(sorted);
+  const double at = std::clamp(percent, 0.0, 100.0) / 100 * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at), above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - std::floor(at)) * (sorted[above] - sorted[below]);
+}
+
 } // namespace candela

@@ -27,6 +27,10 @@ struct ChiSquareResult {
 ChiSquareResult chi_square_test(std::span<const double> observed, std::span<const double> expected,
                                 double min_expected = 5);
 
+/// The value below which `percent` of 0..100 of the values lie, linear between the two nearest (R's type 7,
+/// Hyndman and Fan 1996); 0 of no values.
+double percentile(std::span<const double> values, double percent);
+
 /// Mean and variance of values as they come (Welford 1962).
 class RunningStatistics {
 public:

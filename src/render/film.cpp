@@ -8,6 +8,19 @@ Film::Film(int width, int height)
     : width_(width), height_(height),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
+void Film::resize(int width, int height) {
+  width_ = width;
+  height_ = height;
+  pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+}
+
+void Film::clear(int lattice, int skip_lattice) {
+#pragma omp parallel for schedule(static)
+  for (int y = 0; y < height_; y += lattice)
+    for (int x = 0; x < width_; x += lattice)
+      if (skip_lattice == 0 || x % skip_lattice != 0 || y % skip_lattice != 0) pixel(x, y) = Pixel();
+}
+
 vec3 Film::mean(int x, int y) const {
   const Pixel& p = pixel(x, y);
   if (p.count == 0) return vec3(0);

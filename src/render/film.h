@@ -11,6 +11,12 @@ public:
   Film() = default;
   Film(int width, int height);
 
+  /// Another size. What pixels hold afterwards is of no meaning until clear(); the memory is kept.
+  void resize(int width, int height);
+  /// Forgets the samples of the pixels whose x and y are multiples of `lattice`, but not both of
+  /// `skip_lattice` (0: none is skipped), as a pass of that SampleRange visits them.
+  void clear(int lattice = 1, int skip_lattice = 0);
+
   int width() const { return width_; }
   int height() const { return height_; }
 

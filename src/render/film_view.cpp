@@ -56,13 +56,13 @@ void resolve_view(const Film& film, View view, int coarseness, std::vector<vec3>
   const int width = film.width(), height = film.height();
   vec3* pixels = out.data();
 #pragma omp parallel for schedule(static)
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      bool hole = coarseness > 1 && film.count(x, y) + film.nonfinite(x, y) == 0;
-      pixels[static_cast<std::ptrdiff_t>(y) * width + x] =
-          hole ? resolved_pixel(film, view, x - x % coarseness, y - y % coarseness)
-               : resolved_pixel(film, view, x, y);
-    }
+  for (int y0 = 0; y0 < height; y0 += coarseness) {
+    vec3* row = pixels + static_cast<std::ptrdiff_t>(y0) * width;
+    for (int x0 = 0; x0 < width; x0 += coarseness)
+      std::fill(row + x0, row + std::min(x0 + coarseness, width), resolved_pixel(film, view, x0, y0));
+    for (int y = y0 + 1; y < std::min(y0 + coarseness, height); ++y)
+      std::copy(row, row + width, pixels + static_cast<std::ptrdiff_t>(y) * width);
+  }
 }
 
 Image view_image(const Film& film, View view) {

@@ -49,7 +49,8 @@ struct Frame {
   float display_scale =
       1;          ///< multiplies `linear` for display (the depth view is shown relative to the scene)
   RayCounts rays; ///< of this accumulation
-  double render_seconds = 0; ///< of this accumulation, waiting excluded
+  double render_seconds = 0;     ///< of this accumulation, waiting excluded
+  double first_pass_seconds = 0; ///< of them, those that gave every pixel its first sample; 0 while coarse
   NonFiniteLog nonfinite;
 };
 

@@ -5,15 +5,32 @@
 #include "session/session_state.h"
 
 #include <new>
+#include <omp.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 namespace candela {
 
+/// libgomp keeps a team for the thread that forks it, as long as the number of threads stays.
+void RenderSession::State::meet_team() {
+  std::vector<clockid_t> clocks;
+  std::mutex adding;
+#pragma omp parallel
+  {
+    const clockid_t clock = thread_cpu_clock();
+    std::lock_guard lock(adding);
+    clocks.push_back(clock);
+  }
+  std::lock_guard lock(mutex);
+  team_clocks = std::move(clocks);
+}
+
 void RenderSession::State::render_loop() {
   // Rendering takes what the window leaves over. The OpenMP team is made by this thread and inherits its
   // niceness.
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
+  omp_set_num_threads(options.threads > 0 ? options.threads : omp_get_num_procs()); // one team for all
+  meet_team();
   bool active = false; // something to add samples to
   while (true) {
     {
@@ -126,6 +143,15 @@ void RenderSession::State::apply_region() {
   if (spp > 0) spp = static_cast<int>(schedule.samples());
 }
 
+std::size_t first_level(double pixels, double seconds_per_sample) {
+  if (seconds_per_sample <= 0) return kUsualLevel;
+  // Finer pictures are worth some waiting, coarser ones only the saving of a lot.
+  constexpr std::pair<std::size_t, double> kWorth[] = {{3, 6e-3}, {2, 12e-3}, {1, 30e-3}};
+  for (auto [level, seconds] : kWorth)
+    if (pixels / (kCoarseLevels[level] * kCoarseLevels[level]) * seconds_per_sample <= seconds) return level;
+  return 0;
+}
+
 void RenderSession::State::restart() {
   // Materials and lights are made anew, which is quick; the geometry stays where the instances stay.
   struct End { // also when it is cancelled or fails
@@ -147,11 +173,12 @@ void RenderSession::State::restart() {
     status.phase = SessionPhase::rendering;
   }
   const FilmSettings& size = current.settings.film;
-  film = Film(size.width, size.height);
+  film.resize(size.width, size.height);
+  film_stale = true;
   rays = {};
   nonfinite = {};
   render_seconds = 0;
-  level = 0;
+  level = begun_level = first_level(static_cast<double>(size.width) * size.height, usual_seconds);
   spp = 0;
   schedule.reset(size.width, size.height, 1); // the first pass is everywhere
   converged = false;
@@ -182,9 +209,9 @@ void RenderSession::State::step() {
     render_portion(0);
     return;
   }
-  const double samples = spp > 0 ? spp : static_cast<double>(level) / std::size(kCoarseLevels);
+  const double samples = spp > 0 ? spp : static_cast<double>(level - begun_level) / std::size(kCoarseLevels);
   // Like the pass itself, the turn of the coarsest image is never given up for a newer edit.
-  const auto turn = turns->begin(side, {samples, render_seconds}, level == 0 ? quitting : stop);
+  const auto turn = turns->begin(side, {samples, render_seconds}, level == begun_level ? quitting : stop);
   if (!turn.granted) return;
   struct End { // also when memory runs out
     RenderTurns& turns;
@@ -204,7 +231,13 @@ void RenderSession::State::render_portion(int most_samples) {
   bool coarse = level < std::size(kCoarseLevels);
   if (coarse) {
     range.lattice = kCoarseLevels[level];
-    range.skip_lattice = level > 0 ? kCoarseLevels[level - 1] : 0;
+    range.skip_lattice = level > begun_level ? kCoarseLevels[level - 1] : 0;
+    if (film_stale && level == begun_level) {
+      film.clear(range.lattice); // the rest can wait until the first picture is shown
+    } else if (film_stale) {
+      film.clear(1, range.skip_lattice);
+      film_stale = false;
+    }
   } else {
     // Enough samples a pass to be worth its synchronisation, few enough to publish often.
     job = schedule.next(1);
@@ -222,17 +255,21 @@ void RenderSession::State::render_portion(int most_samples) {
   }
   auto start = Clock::now();
   // The coarsest image is always finished: while an edit is dragged there is a picture of every moment.
-  PassResult pass = render_pass(*scene, current, range, film, level == 0 ? kNeverStop : stop, pass_options);
+  PassResult pass =
+      render_pass(*scene, current, range, film, level == begun_level ? kNeverStop : stop, pass_options);
   double taken = seconds_between(start, Clock::now());
   render_seconds += taken;
   rays += pass.rays;
   nonfinite.count += pass.nonfinite.count;
   for (const NonFiniteSample& s : pass.nonfinite.records)
     if (nonfinite.records.size() < NonFiniteLog::kMaxRecords) nonfinite.records.push_back(s);
+  constexpr double kTelling = 2e-3; // seconds; shorter passes are mostly overhead
+  if (pass.rays.samples > 0 && taken > kTelling)
+    usual_seconds = taken / static_cast<double>(pass.rays.samples);
   if (!pass.completed) return;
   if (coarse) {
     ++level;
-    if (level == std::size(kCoarseLevels)) spp = 1;
+    if (level == std::size(kCoarseLevels)) spp = 1, film_stale = false, first_pass_seconds = render_seconds;
     publish(true);
   } else {
     seconds_per_sample =

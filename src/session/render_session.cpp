@@ -2,7 +2,21 @@
 
 #include "session/session_state.h"
 
+#include <ctime>
+#include <omp.h>
+
 namespace candela {
+
+namespace {
+
+/// 0 for a thread that has ended.
+double cpu_seconds(clockid_t clock) {
+  timespec time{};
+  if (clock_gettime(clock, &time) != 0) return 0;
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+} // namespace
 
 RenderSession::RenderSession(SessionOptions options) : state_(std::make_unique<State>(std::move(options))) {}
 RenderSession::~RenderSession() = default;
@@ -31,6 +45,7 @@ std::uint64_t RenderSession::submit(Document document, BuildQuality quality) {
       s.status.denoise_error.clear();
     }
     generation = ++s.status.submitted;
+    if (consequence >= Invalidates::image) s.status.restarting = generation;
   }
   s.changed.notify_all();
   if (turns) turns->wake();
@@ -66,6 +81,8 @@ void RenderSession::set_region(const CropWindow& region) {
   }
   s.changed.notify_all();
 }
+
+void RenderSession::publish_every(double seconds) { state_->publish_interval = seconds; }
 
 void RenderSession::take_turns(std::shared_ptr<RenderTurns> turns, int side) {
   {
@@ -107,6 +124,19 @@ std::optional<Pick> RenderSession::pick(vec2 film_position) const {
 RenderSession::Built RenderSession::built() const {
   std::lock_guard lock(state_->mutex);
   return {state_->scene, state_->scene_document};
+}
+
+RenderSession::CpuTime RenderSession::cpu_time() const {
+  std::lock_guard lock(state_->mutex);
+  CpuTime time;
+  for (clockid_t clock : state_->team_clocks) time.render += cpu_seconds(clock);
+  if (state_->presenter_clock) time.present = cpu_seconds(*state_->presenter_clock);
+  return time;
+}
+
+int RenderSession::threads() const {
+  const int wanted = state_->options.threads;
+  return wanted > 0 ? wanted : omp_get_num_procs();
 }
 
 bool RenderSession::wait_finished(double seconds) const {

@@ -22,6 +22,7 @@ enum class SessionPhase { idle, building, rendering, paused, finished, failed };
 struct SessionStatus {
   SessionPhase phase = SessionPhase::idle;
   std::uint64_t submitted = 0;  ///< newest generation handed in
+  std::uint64_t restarting = 0; ///< newest that restarts what is accumulated
   std::uint64_t generation = 0; ///< the one that is accumulating
   std::uint64_t restarts = 0;   ///< accumulations begun since the session began
   int spp = 0;                  ///< complete passes of this accumulation
@@ -54,9 +55,10 @@ struct DisplayImage {
 struct SessionOptions {
   int threads = 0;                  ///< 0: every core
   std::function<void()> on_publish; ///< called from a session thread when there is something new to show
-  double min_publish_interval = 1 / 30.0; ///< seconds between pictures once the first full one is shown
-  std::shared_ptr<RenderTurns> turns;     ///< taken with other sessions; null: alone on the machine
-  int side = 0;                           ///< which one this is
+  double min_publish_interval =
+      1 / 30.0; ///< see publish_every(); seconds between pictures once the first full one is shown
+  std::shared_ptr<RenderTurns> turns;             ///< taken with other sessions; null: alone on the machine
+  int side = 0;                                   ///< which one this is
   std::shared_ptr<const RenderScene> geometry_of; ///< reused where the instances are the same
 };
 
@@ -83,6 +85,10 @@ public:
   /// when an empty window gives the whole film back. After a restart the first pass is everywhere.
   void set_region(const CropWindow& region);
 
+  /// Pictures of an accumulation, once its first full one is shown, need come no more often: each costs the
+  /// renderer. Seconds.
+  void publish_every(double seconds);
+
   /// Takes turns from now on; null: no longer.
   void take_turns(std::shared_ptr<RenderTurns> turns, int side);
 
@@ -92,6 +98,14 @@ public:
   std::shared_ptr<const Frame> latest() const;         ///< null before the first image
   std::shared_ptr<const DisplayImage> display() const; ///< null before the first image
   SessionStatus status() const;
+
+  /// CPU time since the session began, seconds.
+  struct CpuTime {
+    double render = 0;  ///< the render thread and its team: building, passes, snapshots of the film
+    double present = 0; ///< the thread that makes pictures of the snapshots
+  };
+  CpuTime cpu_time() const;
+  int threads() const; ///< that render
 
   /// What lies under a film position (pixels, top-left origin) of the newest built scene; nothing while it
   /// builds.

@@ -7,6 +7,31 @@ namespace candela {
 
 namespace {
 
+/// display_rgba8() of a picture that is made of blocks, which costs less than one that is not.
+void tone_map_blocks(std::span<const vec3> linear, int width, int block, const DisplayTransform& transform,
+                     std::span<std::uint8_t> rgba) {
+  if (block == 1) {
+    display_rgba8(linear, transform, rgba);
+    return;
+  }
+  const auto columns = static_cast<std::size_t>(width), side = static_cast<std::size_t>(block);
+  const std::size_t rows = linear.size() / columns;
+  std::vector<vec3> corners;
+  for (std::size_t y = 0; y < rows; y += side)
+    for (std::size_t x = 0; x < columns; x += side) corners.push_back(linear[y * columns + x]);
+  std::vector<std::uint8_t> mapped(4 * corners.size());
+  display_rgba8(corners, transform, mapped);
+  const std::uint8_t* from = mapped.data();
+  for (std::size_t y = 0; y < rows; y += side) {
+    const auto row = rgba.begin() + static_cast<std::ptrdiff_t>(4 * y * columns);
+    for (std::size_t x = 0; x < columns; ++x)
+      std::copy_n(from + 4 * (x / side), 4, row + static_cast<std::ptrdiff_t>(4 * x));
+    from += 4 * ((columns + side - 1) / side);
+    for (std::size_t below = y + 1; below < std::min(y + side, rows); ++below)
+      std::copy_n(row, 4 * columns, rgba.begin() + static_cast<std::ptrdiff_t>(4 * below * columns));
+  }
+}
+
 /// Copying a frame out must not take more of the render thread than this share.
 constexpr double kPublishShare = 0.05;
 
@@ -15,11 +40,11 @@ constexpr double kPublishShare = 0.05;
 /// Hands a snapshot to the presenter; between full images only so often that copying costs little.
 void RenderSession::State::publish(bool force) {
   auto start = Clock::now();
-  double interval = std::max(options.min_publish_interval, publish_cost / kPublishShare);
+  double interval = std::max(publish_interval.load(), publish_cost / kPublishShare);
   bool due = force || seconds_between(published_at, start) >= interval;
   std::shared_ptr<Frame> snapshot;
   if (due) {
-    snapshot = std::make_shared<Frame>();
+    snapshot = frames.take();
     snapshot->generation = accumulation;
     snapshot->width = film.width();
     snapshot->height = film.height();
@@ -28,10 +53,13 @@ void RenderSession::State::publish(bool force) {
     snapshot->document = scene_document;
     snapshot->view = current.settings.view;
     resolve_view(film, snapshot->view, snapshot->coarseness, snapshot->linear);
+    snapshot->variance.clear();
+    snapshot->samples.clear();
     if (spp > 0) resolve_statistics(film, snapshot->variance, snapshot->samples);
     snapshot->display_scale = display_scale(*scene, current.settings);
     snapshot->rays = rays;
     snapshot->render_seconds = render_seconds;
+    snapshot->first_pass_seconds = spp > 0 ? first_pass_seconds : 0;
     snapshot->nonfinite = nonfinite;
     published_samples = rays.samples;
     published_view = snapshot->view;
@@ -96,6 +124,11 @@ std::shared_ptr<const DenoisedImage> RenderSession::State::denoised_to_show() co
 }
 
 void RenderSession::State::present_loop() {
+  Recycler<DisplayImage> images;
+  {
+    std::lock_guard lock(mutex);
+    presenter_clock = thread_cpu_clock();
+  }
   while (true) {
     std::shared_ptr<const Frame> source;
     std::shared_ptr<const DenoisedImage> clean;
@@ -112,7 +145,7 @@ void RenderSession::State::present_loop() {
       clean = denoised_to_show();
       display = newest.settings.display;
     }
-    auto made = std::make_shared<DisplayImage>();
+    const std::shared_ptr<DisplayImage> made = images.take();
     made->frame = source;
     made->denoised = clean;
     const std::vector<vec3>& linear = made->linear();
@@ -122,10 +155,10 @@ void RenderSession::State::present_loop() {
     made->rgba.resize(4 * linear.size());
     made->transform = display_transform(linear, source->width, source->height, display, source->view,
                                         source->display_scale);
-    display_rgba8(linear, made->transform, made->rgba);
+    tone_map_blocks(linear, made->width, clean ? 1 : source->coarseness, made->transform, made->rgba);
     {
       std::lock_guard lock(mutex);
-      picture = std::move(made);
+      picture = made;
       if (first_image_generation != 0 && source->generation >= first_image_generation) {
         status.first_image_ms = 1000 * seconds_between(first_image_submitted, Clock::now());
         first_image_generation = 0;

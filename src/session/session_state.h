@@ -2,6 +2,7 @@
 // The inside of RenderSession: what its threads share and what belongs to each. Only session/ includes this.
 
 #include "core/progress.h"
+#include "core/recycler.h"
 #include "render/render_pass.h"
 #include "session/denoise_thread.h"
 #include "session/render_session.h"
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <pthread.h>
 #include <thread>
 
 namespace candela {
@@ -21,7 +23,11 @@ inline double seconds_between(Clock::time_point a, Clock::time_point b) {
 }
 
 /// Side of the blocks of the first pass; each is a multiple of the next, so the lattices nest.
-inline constexpr int kCoarseLevels[] = {8, 4, 2, 1};
+inline constexpr int kCoarseLevels[] = {32, 16, 8, 4, 2, 1};
+inline constexpr std::size_t kUsualLevel = 2; ///< to begin with while no sample has been timed
+
+/// The level that the first pass of a film begins with, so that a picture of it is there soon.
+std::size_t first_level(double pixels, double seconds_per_sample);
 
 // Three threads: `renderer` turns Documents into Frames, `denoiser` turns snapshots of the film into
 // DenoisedImages, `presenter` turns either into DisplayImages. The mutex guards pointers and small values and
@@ -46,7 +52,8 @@ struct RenderSession::State {
   mutable std::mutex mutex;
   mutable std::condition_variable changed;
   bool quit = false;
-  std::atomic<bool> stop{false};     ///< the pass in flight is out of date
+  std::atomic<bool> stop{false}; ///< the pass in flight is out of date
+  std::atomic<double> publish_interval{options.min_publish_interval};
   std::atomic<bool> quitting{false}; ///< `quit`, for who does not hold the mutex
 
   // The mailbox.
@@ -63,6 +70,10 @@ struct RenderSession::State {
   // Written by the render thread.
   std::shared_ptr<Progress> building; ///< of the RenderScene in the making, if one is
   BuildQuality building_quality = BuildQuality::high;
+
+  // Whose CPU time is told.
+  std::vector<clockid_t> team_clocks; ///< of the render thread and the OpenMP team that it keeps
+  std::optional<clockid_t> presenter_clock;
 
   // What is shown.
   SessionStatus status;
@@ -82,7 +93,10 @@ struct RenderSession::State {
   RayCounts rays;
   NonFiniteLog nonfinite;
   double render_seconds = 0;
-  std::size_t level = 0; ///< next of kCoarseLevels
+  bool film_stale = true; ///< it holds samples of the accumulation before, but where the first level cleared
+  std::size_t begun_level = 0; ///< which of kCoarseLevels this accumulation began with
+  std::size_t level = 0;       ///< next of kCoarseLevels
+  Recycler<Frame> frames;
   SampleSchedule schedule;
   int spp = 0;            ///< complete passes over the film, or over the region
   bool converged = false; ///< adaptive sampling has stopped everywhere
@@ -90,6 +104,8 @@ struct RenderSession::State {
   BuildQuality built = BuildQuality::high;                ///< of the scene's geometry
   std::uint64_t published_samples = 0; ///< camera paths in the last snapshot: spp may come to the same twice
   View published_view = View::radiance;
+  double first_pass_seconds = 0; ///< those of render_seconds that gave every pixel its first sample
+  double usual_seconds = 0;      ///< that a sample took in the newest long pass, of any accumulation
   double seconds_per_sample = 0; ///< of one pixel
   double publish_cost = 0;
   Clock::time_point published_at;
@@ -100,6 +116,7 @@ struct RenderSession::State {
       [this](std::string why) { show_denoise_error(std::move(why)); }};
   std::jthread renderer, presenter; // last: they are joined before the rest goes
 
+  void meet_team();
   void render_loop();
   bool take_pending();
   void restart();
@@ -119,5 +136,12 @@ struct RenderSession::State {
   std::shared_ptr<const DenoisedImage> denoised_to_show() const;
   void present_loop();
 };
+
+/// The CPU-time clock of the calling thread, for any thread to read.
+inline clockid_t thread_cpu_clock() {
+  clockid_t clock{};
+  pthread_getcpuclockid(pthread_self(), &clock);
+  return clock;
+}
 
 } // namespace candela

@@ -1,7 +1,7 @@
 #pragma once
 // The Viewer without a window: OSMesa draws into memory, and a hand that moves, presses, types and looks.
-// libOSMesa is opened at run time, because linked beside libGL it would silently take over its functions.
 
+#include "app/offscreen_context.h"
 #include "app/viewer.h"
 #include "io/image_file.h"
 #include "support/scratch_folder.h"
@@ -9,74 +9,12 @@
 
 #include <gtest/gtest.h>
 
-#include <dlfcn.h>
 #include <filesystem>
 #include <string>
 #include <thread>
 #include <vector>
 
 namespace candela::test {
-
-/// An OpenGL 3.3 core context that draws into memory.
-class OffscreenContext {
-public:
-  OffscreenContext() {
-    library_ = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
-    if (library_ == nullptr) throw std::runtime_error("libOSMesa.so.8 is missing: install libosmesa6");
-    find(create_, "OSMesaCreateContextAttribs");
-    find(make_current_, "OSMesaMakeCurrent");
-    find(destroy_, "OSMesaDestroyContext");
-    find(get_proc_, "OSMesaGetProcAddress");
-    // From GL/osmesa.h: format RGBA, profile core, version 3.3.
-    const int attributes[] = {0x22, GL_RGBA, 0x33, 0x34, 0x36, 3, 0x37, 3, 0};
-    context_ = create_(attributes, nullptr);
-    if (context_ == nullptr) throw std::runtime_error("OSMesa made no OpenGL 3.3 core context");
-    resize({1, 1});
-    gl_ = load_gl([](const char* name) { return get_proc_(name); });
-  }
-  ~OffscreenContext() { destroy_(context_); } // the library stays: its threads outlive the context
-  OffscreenContext(const OffscreenContext&) = delete;
-  OffscreenContext& operator=(const OffscreenContext&) = delete;
-
-  void resize(ivec2 size) {
-    size_ = size;
-    memory_.assign(4 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y), 0);
-    if (make_current_(context_, memory_.data(), GL_UNSIGNED_BYTE, size.x, size.y) == 0)
-      throw std::runtime_error("OSMesaMakeCurrent failed");
-  }
-
-  const Gl& gl() const { return gl_; }
-  ivec2 size() const { return size_; }
-
-  /// RGBA of the framebuffer, row 0 at the top.
-  std::vector<std::uint8_t> pixels() const {
-    std::vector<std::uint8_t> bottom_up(memory_.size()), out;
-    gl_.Finish();
-    gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_.ReadPixels(0, 0, size_.x, size_.y, GL_RGBA, GL_UNSIGNED_BYTE, bottom_up.data());
-    const auto row = static_cast<std::ptrdiff_t>(4 * size_.x);
-    for (int y = size_.y - 1; y >= 0; --y)
-      out.insert(out.end(), bottom_up.begin() + y * row, bottom_up.begin() + (y + 1) * row);
-    return out;
-  }
-
-private:
-  template <class Function>
-  void find(Function& function, const char* name) {
-    function = reinterpret_cast<Function>(dlsym(library_, name));
-    if (function == nullptr) throw std::runtime_error(std::string("libOSMesa has no ") + name);
-  }
-
-  void* library_ = nullptr;
-  void* context_ = nullptr;
-  void* (*create_)(const int*, void*) = nullptr;
-  unsigned char (*make_current_)(void*, void*, unsigned, int, int) = nullptr;
-  void (*destroy_)(void*) = nullptr;
-  static inline void* (*get_proc_)(const char*) = nullptr;
-  Gl gl_;
-  ivec2 size_{0};
-  std::vector<std::uint8_t> memory_;
-};
 
 /// A room of five coloured walls, a lamp, a glossy ball and a small point light.
 inline Document test_document() {
@@ -144,7 +82,10 @@ public:
   // Time and pictures.
 
   void frame(int count = 1, double seconds = 1 / 30.0) {
-    for (int i = 0; i < count; ++i) viewer.frame(clock_ += seconds);
+    for (int i = 0; i < count; ++i) {
+      viewer.frame(clock_ += seconds);
+      viewer.shown({});
+    }
     EXPECT_EQ(context_.gl().GetError(), static_cast<GLenum>(GL_NO_ERROR));
   }
   /// Long enough that the next click is not the second one of a double click.

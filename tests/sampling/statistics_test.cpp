@@ -116,5 +116,16 @@ TEST(StatisticsStatistical, OnePercentOfBiasIsSeen) {
   EXPECT_LT(z_test(sample, 0.5), kFalseAlarm);
 }
 
+TEST(Percentile, IsLinearBetweenTheNearestValues) {
+  const double values[] = {40, 10, 30, 20};
+  EXPECT_DOUBLE_EQ(percentile(values, 0), 10);
+  EXPECT_DOUBLE_EQ(percentile(values, 50), 25);
+  EXPECT_DOUBLE_EQ(percentile(values, 90), 37);
+  EXPECT_DOUBLE_EQ(percentile(values, 100), 40);
+  const double one[] = {3};
+  EXPECT_DOUBLE_EQ(percentile(one, 99), 3);
+  EXPECT_DOUBLE_EQ(percentile({}, 50), 0);
+}
+
 } // namespace
 } // namespace candela::test
