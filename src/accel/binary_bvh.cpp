@@ -49,9 +49,6 @@ private:
   static constexpr std::uint32_t kParallelRange = 1u << 16;
   static constexpr std::uint32_t kChunks = 32;
 
-  /// More would be more work in the many small ranges, and gain nothing (32: no more rays per second).
-  int bin_count(std::uint32_t count) const { return count <= 32 ? 8 : kMaxBins; }
-
   /// Calls visit(chunk, from, to) for all chunks of a large range.
   template <class Visit>
   void for_chunks(const Subtree& s, Visit visit) {
@@ -86,17 +83,17 @@ private:
 
   Sides split_large(const Subtree& s, Buffers buffers, const Binning& binning) {
     Sides sides{{}, {}, 0, {buffers.to, buffers.from}};
-    std::vector<Bins> partial(kChunks, Bins(binning.bins));
+    std::vector<Bins> partial(kChunks);
     for_chunks(s, [&](std::uint32_t chunk, std::uint32_t from, std::uint32_t to) {
       binning.fill(buffers.from + from, buffers.from + to, partial[chunk]);
     });
-    Bins bins(binning.bins);
+    Bins bins;
     for (const Bins& p : partial) bins.merge(p);
     const Split split = bins.best_split();
     if (split.axis < 0) return sides;
     sides.left_count = bins.count_left(split);
     sides.left.box = bins.box_of(split.axis, 0, split.position);
-    sides.right.box = bins.box_of(split.axis, split.position, bins.size);
+    sides.right.box = bins.box_of(split.axis, split.position, kBins);
     // The bins of the chunks tell where in either side each of them begins.
     std::array<std::uint32_t, kChunks> lefts_before;
     std::uint32_t sum = 0;
@@ -119,13 +116,13 @@ private:
   Sides split_bins(const Subtree& s, Buffers buffers, const Binning& binning) {
     Sides sides{{}, {}, 0, {buffers.to, buffers.from}};
     const BuildRef *begin = buffers.from + s.begin, *end = begin + s.count;
-    Bins bins(binning.bins);
+    Bins bins;
     binning.fill(begin, end, bins);
     const Split split = bins.best_split();
     if (split.axis < 0) return sides;
     sides.left_count = bins.count_left(split);
     sides.left.box = bins.box_of(split.axis, 0, split.position);
-    sides.right.box = bins.box_of(split.axis, split.position, bins.size);
+    sides.right.box = bins.box_of(split.axis, split.position, kBins);
     BuildRef *left = buffers.to + s.begin, *right = left + sides.left_count;
     partition(binning, split, begin, end, left, right, sides.left.centroids, sides.right.centroids);
     return sides;
@@ -169,7 +166,7 @@ private:
         if (as_leaf && split.cost >= bounds.box.half_area()) return {{}, {}, 0, buffers};
         return split_few(s, buffers, ranks, split);
       }
-      Binning binning(bounds.centroids, bin_count(s.count));
+      const Binning binning(bounds.centroids);
       if (binning.usable()) {
         Sides sides =
             s.count >= kParallelRange ? split_large(s, buffers, binning) : split_bins(s, buffers, binning);

@@ -12,9 +12,10 @@
 
 namespace candela::accel_detail {
 
-/// Costs in node visits. What a pack costs matters little: from 0.6 to 2.5 the rays per second differ by 2 %.
+/// Costs in node visits. What a pack costs matters little: from 0.5 to 4 the rays per second differ by 2 %,
+/// and the lower the fuller are the packs (bunny: 5.0 triangles at 4, 5.6 at 1.5, 5.7 at 1).
 inline constexpr float kNodeCost = 1.0f;
-constexpr float leaf_cost(LeafKind kind) { return kind == LeafKind::instance ? 8.0f : 1.5f; }
+constexpr float leaf_cost(LeafKind kind) { return kind == LeafKind::instance ? 8.0f : 1.0f; }
 
 /// [i]: the cost of a forest of at most i trees, i in 1..7; [0] is infinite.
 using ForestCosts = std::array<float, kWidth>;

@@ -67,30 +67,27 @@ inline Split sweep(int size, BoxAt box, CountsAt counts) {
   return split;
 }
 
-inline constexpr int kMaxBins = 16;
+/// With 32: no more rays per second. With 8 for fewer than 32 refs: as fast, and packs less full.
+inline constexpr int kBins = 16;
 
-/// Only the first `size` of each axis are in use and set: most ranges are small, and clearing bins is a good
-/// part of their time.
 struct Bins {
-  std::array<std::array<simd::Float8, 3>, kMaxBins> box;
-  std::array<std::array<std::int32_t, 4>, kMaxBins> count; ///< a lane per axis
-  int size;
+  std::array<std::array<simd::Float8, 3>, kBins> box;
+  std::array<std::array<std::int32_t, 4>, kBins> count; ///< a lane per axis
 
-  explicit Bins(int bins) : size(bins) {
+  Bins() {
     const simd::Float8 none = BuildBox{}.v;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i)
-      box[i] = {none, none, none}, count[i] = {};
+    for (std::size_t i = 0; i < kBins; ++i) box[i] = {none, none, none}, count[i] = {};
   }
   void merge(const Bins& b) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i)
+    for (std::size_t i = 0; i < kBins; ++i)
       for (std::size_t axis = 0; axis < 3; ++axis) {
         box[i][axis] = min(b.box[i][axis], box[i][axis]);
         count[i][axis] += b.count[i][axis];
       }
   }
   Split best_split() const {
-    return sweep<kMaxBins>(
-        size, [this](int i, std::size_t axis) { return box[static_cast<std::size_t>(i)][axis]; },
+    return sweep<kBins>(
+        kBins, [this](int i, std::size_t axis) { return box[static_cast<std::size_t>(i)][axis]; },
         [this](int i) {
           const auto& c = count[static_cast<std::size_t>(i)];
           return simd::IntVec4{c[0], c[1], c[2], 0};
@@ -113,20 +110,19 @@ struct Bins {
 /// Maps centroids to bins.
 struct Binning {
   alignas(16) std::array<float, 4> origin, scale;
-  int bins;
 
-  Binning(const CentroidBounds& centroids, int bin_count) : bins(bin_count) {
+  explicit Binning(const CentroidBounds& centroids) {
     simd::Vec4 extent = centroids.hi - centroids.lo;
     for (int a = 0; a < 4; ++a) {
       auto i = static_cast<std::size_t>(a);
-      float s = a < 3 && extent[a] > 0 ? 0.9999f * static_cast<float>(bins) / extent[a] : 0.0f;
+      float s = a < 3 && extent[a] > 0 ? 0.9999f * kBins / extent[a] : 0.0f;
       origin[i] = a < 3 ? centroids.lo[a] : 0;
       scale[i] = std::isfinite(s) ? s : 0.0f; // denormal extents: treat as coincident
     }
   }
   bool usable() const { return scale[0] > 0 || scale[1] > 0 || scale[2] > 0; }
 
-  /// Of all axes; in range, for the product lies in [0, 0.9999 bins].
+  /// Of all axes; in range, for the product lies in [0, 0.9999 kBins].
   void fill(const BuildRef* from, const BuildRef* to, Bins& result) const {
     const simd::Vec4 o{origin[0], origin[1], origin[2], 0}, s{scale[0], scale[1], scale[2], 0};
     for (; from != to; ++from) {
@@ -147,7 +143,7 @@ struct Binning {
 
 /// Up to this many refs the cut is looked for among all places rather than among bins: as fast, for there are
 /// no bins to clear, and exact.
-inline constexpr std::uint32_t kSweepRange = 8;
+inline constexpr std::uint32_t kSweepRange = 16;
 
 /// The order of the centroids of few refs along each axis.
 class Ranks {

@@ -35,10 +35,28 @@ public:
     } else {
       open_largest(s, result);
     }
+    order(result);
     return result;
   }
 
 private:
+  /// Leaves first, of which the largest, then nodes, of which the smallest. Any-hit rays take the first child
+  /// that they meet, and a hit in it ends them; closest-hit rays prefer the earlier child where they start
+  /// inside of several. In Sponza 15 % fewer packs are tested for primary rays, and 1 % fewer nodes for
+  /// shadow rays.
+  void order(Children& children) const {
+    std::array<std::pair<float, Subtree>, kWidth> keyed;
+    for (std::size_t i = 0; i < children.count; ++i) {
+      const Subtree& s = children.subtree[i];
+      const float area = bvh_.box(s).half_area();
+      std::size_t at = i;
+      const float key = is_leaf(s) ? -area : area;
+      for (; at > 0 && keyed[at - 1].first > key; --at) keyed[at] = keyed[at - 1];
+      keyed[at] = {key, s};
+    }
+    for (std::size_t i = 0; i < children.count; ++i) children.subtree[i] = keyed[i].second;
+  }
+
   CollapsePlan plan(const Subtree& s) const { return {bvh_.nodes[s.node].plan}; }
 
   void distribute(const Subtree& s, int slots, Children& result) const {

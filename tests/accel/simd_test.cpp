@@ -69,7 +69,7 @@ TYPED_TEST(SimdFloat8, Comparisons) {
 }
 
 /// For every set of lanes, with equal keys among them.
-TYPED_TEST(SimdFloat8, StoresLanesInOrderAndSorted) {
+TYPED_TEST(SimdFloat8, TakesTheFirstAndSorts) {
   using F = TypeParam;
   using Entry = simd::Keyed<std::uint32_t>;
   const Lanes keys{{3, 1, 4, 1, 5, kInfinity, 0, 4}};
@@ -86,12 +86,26 @@ TYPED_TEST(SimdFloat8, StoresLanesInOrderAndSorted) {
       for (std::size_t i = 0; i < count; ++i) result.emplace_back(out[i].key, out[i].value);
       return result;
     };
-    EXPECT_EQ(stored([&](Entry* out) { return simd::store_in_order(k, values, lanes, out); }), expected)
-        << lanes;
+    std::uint32_t first = 0;
+    const auto others = stored([&](Entry* out) {
+      first = simd::take_first(k, values, lanes, out);
+      return std::popcount(lanes) - 1;
+    });
+    EXPECT_EQ(first, expected.front().second);
+    EXPECT_EQ(others, decltype(expected)(expected.begin() + 1, expected.end())) << lanes;
     EXPECT_EQ(first_lane(k, lanes), expected.front().first);
     std::sort(expected.rbegin(), expected.rend());
     EXPECT_EQ(stored([&](Entry* out) { return simd::store_descending(k, values, lanes, out); }), expected)
         << lanes;
+  }
+}
+
+TYPED_TEST(SimdFloat8, Halves) {
+  const Lanes a{{3, 1, 4, 1, 5, kInfinity, 0, 4}};
+  TypeParam x = TypeParam::load(a.f.data());
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(x.lower()[i], a.f[static_cast<std::size_t>(i)]);
+    EXPECT_EQ(x.upper()[i], a.f[static_cast<std::size_t>(i + 4)]);
   }
 }
 
