@@ -243,7 +243,7 @@ inline Value take_first(AvxFloat8 keys, const std::array<Value, kLanes>& values,
   __m512i e = compress_entries(keys, values, lanes);
   _mm512_storeu_si512(out, _mm512_alignr_epi64(e, e, 1));
   // From the register: what is stored can be loaded only some cycles later, and the next node waits for it.
-  // 6 % of the shadow rays in Sponza.
+  // With the order of children (Collapse::order) this gave 8 % more shadow rays in Sponza.
   return std::bit_cast<Value>(_mm_cvtsi128_si32(_mm512_castsi512_si128(e)));
 }
 
