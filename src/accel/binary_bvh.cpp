@@ -34,6 +34,7 @@ public:
   void build(const RangeBounds& bounds) {
     Subtree root = bvh_.root();
     other_.resize(root.count);
+    pack_price_ = kPackPrice * bounds.box.half_area() / static_cast<float>(root.count);
     ForestCosts cost;
 #pragma omp parallel if (root.count >= kTaskRange)
 #pragma omp single
@@ -155,7 +156,7 @@ private:
     return sides_in_place(s, buffers, s.count / 2);
   }
 
-  /// as_leaf: it may stay one, then there is no side where two packs have no less area than one.
+  /// as_leaf: it may stay one, then there is no split where two packs would cost no less than one.
   Sides split(const Subtree& s, Buffers buffers, const RangeBounds& bounds, int depth, bool as_leaf) {
     // From here on halving is the only way to stay within the depth: 2^(levels left) primitives.
     int levels_left = kMaxDepth - depth - 1;
@@ -163,7 +164,7 @@ private:
       if (s.count <= kSweepRange) {
         const Ranks ranks(buffers.from + s.begin, s.count);
         const Split split = ranks.best_split();
-        if (as_leaf && split.cost >= bounds.box.half_area()) return {{}, {}, 0, buffers};
+        if (as_leaf && split.cost + pack_price_ >= bounds.box.half_area()) return {{}, {}, 0, buffers};
         return split_few(s, buffers, ranks, split);
       }
       const Binning binning(bounds.centroids);
@@ -195,7 +196,7 @@ private:
     const BuildRef* first = buffers.from + s.begin;
     const float half_area = bounds.box.half_area();
     const bool leaf = fits_leaf(first, s.count, bvh_.mixed);
-    const float as_leaf = leaf ? half_area * leaf_cost(first->kind()) : kInfinity;
+    const float as_leaf = leaf ? half_area * leaf_cost(first->kind()) + pack_price_ : kInfinity;
     if (s.count == 1) {
       settle(s, buffers);
       cost.fill(as_leaf);
@@ -234,6 +235,7 @@ private:
   BuildQuality quality_;
   const BuildStage& stage_;
   HugeVector<BuildRef> other_;
+  float pack_price_ = 0; ///< as an area
 };
 
 } // namespace
