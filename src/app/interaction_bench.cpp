@@ -158,6 +158,7 @@ double InteractionBench::advance(Viewer& viewer) {
   case Stage::refine:
     report_progress(1 - (due_ - now) / plan_.seconds, "refining");
     if (now < due_) return std::min(due_ - now, kLook);
+    if (status.rays.samples == samples_before_) return kLook; // not one pass has ended
     result_.refining = bill(viewer) - before_;
     result_.samples_per_second =
         static_cast<double>(status.rays.samples - samples_before_) / result_.refining.wall;

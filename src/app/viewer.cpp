@@ -29,6 +29,8 @@ constexpr int kFramesToSettle = 3;
 // Without a GPU every drawn frame is taken from the renderer; 30 a second look smooth, input may have 60.
 constexpr double kPictureInterval = 1 / 30.0;
 constexpr double kInputInterval = 1 / 60.0;
+/// While a picture is awaited, drawing the old one would only delay it.
+constexpr double kWaitingInterval = 1 / 15.0;
 /// Of the wall time, to draw a picture that only becomes less noisy.
 constexpr double kWindowShare = 0.06;
 constexpr double kSlowestRefining = 0.2;
@@ -161,7 +163,7 @@ bool Viewer::frame(double now, bool may_wait) {
   const bool restarted = restarts_handed_in != meter_.submissions();
   if (!owes_drawing_) owed_since_ = now;
   owes_drawing_ =
-      may_wait && !new_picture && (restarted || owes_drawing_) && now < owed_since_ + kPictureInterval;
+      may_wait && !new_picture && (restarted || owes_drawing_) && now < owed_since_ + kWaitingInterval;
   if (!owes_drawing_) drawn_at_ = now;
   if (!owes_drawing_ && framebuffer_.x > 0 && framebuffer_.y > 0) {
     gl_.Viewport(0, 0, framebuffer_.x, framebuffer_.y);
@@ -223,8 +225,10 @@ double Viewer::next_frame() const {
   if (awaited_picture_is_there()) due = drawn_at_ + kInputInterval; // perhaps at once
   if (has_pending_events() || fly_command().any()) due = std::min(due, now_ + kInputInterval);
   const bool coarse = state_.picture && state_.picture->frame->spp < 1;
-  if (owes_drawing_ || coarse || redraws_ > 0 || meter_.waiting())
-    due = std::min(due, (owes_drawing_ ? owed_since_ : drawn_at_) + kPictureInterval);
+  if (owes_drawing_)
+    due = std::min(due, owed_since_ + kWaitingInterval);
+  else if (coarse || redraws_ > 0 || meter_.waiting())
+    due = std::min(due, drawn_at_ + (meter_.waiting() ? kWaitingInterval : kPictureInterval));
   return due;
 }
 

@@ -13,6 +13,7 @@ namespace candela {
 
 /// libgomp keeps a team for the thread that forks it, as long as the number of threads stays.
 void RenderSession::State::meet_team() {
+  omp_set_num_threads(options.threads > 0 ? options.threads : omp_get_num_procs()); // one team for all work
   std::vector<clockid_t> clocks;
   std::mutex adding;
 #pragma omp parallel
@@ -22,14 +23,13 @@ void RenderSession::State::meet_team() {
     clocks.push_back(clock);
   }
   std::lock_guard lock(mutex);
-  team_clocks = std::move(clocks);
+  team_clocks.insert(team_clocks.end(), clocks.begin(), clocks.end());
 }
 
 void RenderSession::State::render_loop() {
   // Rendering takes what the window leaves over. The OpenMP team is made by this thread and inherits its
   // niceness.
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
-  omp_set_num_threads(options.threads > 0 ? options.threads : omp_get_num_procs()); // one team for all
   meet_team();
   bool active = false; // something to add samples to
   while (true) {
@@ -223,16 +223,23 @@ void RenderSession::State::step() {
 
 /// `most_samples` a pixel; 0: as many as are worth it.
 void RenderSession::State::render_portion(int most_samples) {
+  if (level == begun_level)
+    urgent.run([&] { render_pass_of(most_samples); });
+  else
+    render_pass_of(most_samples);
+}
+
+void RenderSession::State::render_pass_of(int most_samples) {
   static const std::atomic<bool> kNeverStop{false};
   PassOptions pass_options;
   pass_options.threads = options.threads;
   SampleRange range;
   SampleSchedule::Job job;
-  bool coarse = level < std::size(kCoarseLevels);
+  const bool coarse = level < std::size(kCoarseLevels), first = level == begun_level;
   if (coarse) {
     range.lattice = kCoarseLevels[level];
-    range.skip_lattice = level > begun_level ? kCoarseLevels[level - 1] : 0;
-    if (film_stale && level == begun_level) {
+    range.skip_lattice = first ? 0 : kCoarseLevels[level - 1];
+    if (film_stale && first) {
       film.clear(range.lattice); // the rest can wait until the first picture is shown
     } else if (film_stale) {
       film.clear(1, range.skip_lattice);
@@ -255,16 +262,14 @@ void RenderSession::State::render_portion(int most_samples) {
   }
   auto start = Clock::now();
   // The coarsest image is always finished: while an edit is dragged there is a picture of every moment.
-  PassResult pass =
-      render_pass(*scene, current, range, film, level == begun_level ? kNeverStop : stop, pass_options);
+  PassResult pass = render_pass(*scene, current, range, film, first ? kNeverStop : stop, pass_options);
   double taken = seconds_between(start, Clock::now());
   render_seconds += taken;
   rays += pass.rays;
   nonfinite.count += pass.nonfinite.count;
   for (const NonFiniteSample& s : pass.nonfinite.records)
     if (nonfinite.records.size() < NonFiniteLog::kMaxRecords) nonfinite.records.push_back(s);
-  constexpr double kTelling = 2e-3; // seconds; shorter passes are mostly overhead
-  if (pass.rays.samples > 0 && taken > kTelling)
+  if (pass.rays.samples > 0 && (first || usual_seconds == 0))
     usual_seconds = taken / static_cast<double>(pass.rays.samples);
   if (!pass.completed) return;
   if (coarse) {

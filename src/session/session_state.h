@@ -7,6 +7,7 @@
 #include "session/denoise_thread.h"
 #include "session/render_session.h"
 #include "session/sample_schedule.h"
+#include "session/urgent_thread.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -29,9 +30,9 @@ inline constexpr std::size_t kUsualLevel = 2; ///< to begin with while no sample
 /// The level that the first pass of a film begins with, so that a picture of it is there soon.
 std::size_t first_level(double pixels, double seconds_per_sample);
 
-// Three threads: `renderer` turns Documents into Frames, `denoiser` turns snapshots of the film into
-// DenoisedImages, `presenter` turns either into DisplayImages. The mutex guards pointers and small values and
-// is never held while one of them works.
+// Four threads: `renderer` turns Documents into Frames, the first of each by way of `urgent`, `denoiser`
+// turns snapshots of the film into DenoisedImages, `presenter` turns either into DisplayImages. The mutex
+// guards pointers and small values and is never held while one of them works.
 struct RenderSession::State {
   explicit State(SessionOptions o) : options(std::move(o)) {
     renderer = std::jthread([this] { render_loop(); });
@@ -72,7 +73,7 @@ struct RenderSession::State {
   BuildQuality building_quality = BuildQuality::high;
 
   // Whose CPU time is told.
-  std::vector<clockid_t> team_clocks; ///< of the render thread and the OpenMP team that it keeps
+  std::vector<clockid_t> team_clocks; ///< of the threads that render and the OpenMP teams that they keep
   std::optional<clockid_t> presenter_clock;
 
   // What is shown.
@@ -105,7 +106,7 @@ struct RenderSession::State {
   std::uint64_t published_samples = 0; ///< camera paths in the last snapshot: spp may come to the same twice
   View published_view = View::radiance;
   double first_pass_seconds = 0; ///< those of render_seconds that gave every pixel its first sample
-  double usual_seconds = 0;      ///< that a sample took in the newest long pass, of any accumulation
+  double usual_seconds = 0;      ///< that a sample took in the newest first picture, of any accumulation
   double seconds_per_sample = 0; ///< of one pixel
   double publish_cost = 0;
   Clock::time_point published_at;
@@ -114,6 +115,7 @@ struct RenderSession::State {
   DenoiseThread denoiser{
       options.threads, [this](std::shared_ptr<const DenoisedImage> made) { show_denoised(std::move(made)); },
       [this](std::string why) { show_denoise_error(std::move(why)); }};
+  UrgentThread urgent{[this] { meet_team(); }};
   std::jthread renderer, presenter; // last: they are joined before the rest goes
 
   void meet_team();
@@ -128,6 +130,7 @@ struct RenderSession::State {
   bool take_step();
   void step();
   void render_portion(int most_samples);
+  void render_pass_of(int most_samples);
   void publish(bool force);
   void feed_denoiser(bool settled);
   void show_denoised(std::shared_ptr<const DenoisedImage> made);

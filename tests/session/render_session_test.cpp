@@ -162,5 +162,16 @@ TEST(RenderSession, CountsOnlyItsOwnAccumulation) {
   EXPECT_GT(status.rays.closest, status.rays.samples);
 }
 
+TEST(RenderSession, NothingOfAnEarlierImageOrSizeIsLeftInTheNextOne) {
+  RenderSession session;
+  int seed = 0;
+  for (const ivec2 size : {ivec2(40, 30), ivec2(64, 48), ivec2(64, 48), ivec2(17, 9), ivec2(50, 33)}) {
+    Document document = small_cornell(3, size.x, size.y);
+    document.settings.sampler.seed = ++seed;
+    ASSERT_TRUE(shows(session, document));
+    EXPECT_EQ(session.latest()->linear, headless(document)) << size.x << " x " << size.y;
+  }
+}
+
 } // namespace
 } // namespace candela
