@@ -111,6 +111,8 @@ public:
   /// The closest hit with t in (t_min, t_max), or nothing. A negative t_min counts as 0. The direction is of
   /// any length from 1e-18 to 1e18; a ray that is not finite meets nothing.
   std::optional<Hit> intersect(const Ray& ray) const;
+  /// The same without an optional to copy; `hit` is undefined where nothing is met.
+  bool intersect(const Ray& ray, Hit& hit) const;
   /// Whether there is any hit with t in (t_min, t_max): exactly when intersect finds one.
   bool occluded(const Ray& ray) const;
   /// What intersect(ray) costs.

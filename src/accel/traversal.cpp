@@ -4,9 +4,12 @@ namespace candela {
 
 std::optional<Hit> Accel::intersect(const Ray& ray) const {
   std::optional<Hit> hit;
-  if (!tree_ || tree_->empty()) return hit;
-  if (!accel_detail::trace<simd::Float8, false>(*tree_, ray, hit.emplace())) hit.reset();
+  if (!intersect(ray, hit.emplace())) hit.reset();
   return hit;
+}
+
+bool Accel::intersect(const Ray& ray, Hit& hit) const {
+  return tree_ && !tree_->empty() && accel_detail::trace<simd::Float8, false>(*tree_, ray, hit);
 }
 
 bool Accel::occluded(const Ray& ray) const {

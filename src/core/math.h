@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -30,8 +31,14 @@ inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 constexpr float sqr(float x) { return x * x; }
 /// sqrt that takes the rounding error of an exact 0 for 0.
 inline float safe_sqrt(float x) { return std::sqrt(std::max(x, 0.0f)); }
-inline float max_component(vec3 v) { return std::max({v.x, v.y, v.z}); }
-inline float min_component(vec3 v) { return std::min({v.x, v.y, v.z}); }
+inline float max_component(vec3 v) { return std::max(std::max(v.x, v.y), v.z); }
+inline float min_component(vec3 v) { return std::min(std::min(v.x, v.y), v.z); }
+/// condition ? a : b without a branch, for conditions that nobody can predict.
+inline float select(bool condition, float a, float b) {
+  auto mask = 0 - static_cast<std::uint32_t>(condition);
+  return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) |
+                              (std::bit_cast<std::uint32_t>(b) & ~mask));
+}
 inline float average(vec3 v) { return (v.x + v.y + v.z) * (1.0f / 3.0f); }
 inline bool is_finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 inline bool is_black(vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }

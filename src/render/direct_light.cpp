@@ -2,33 +2,65 @@
 
 namespace candela {
 
-vec3 aim_at_lights(const RenderScene& scene, const Vertex& vertex, const Bsdf& bsdf, const Sampler& sampler,
-                   const PathSettings& settings, int scattered, RayCounts& counts) {
-  bool aim = settings.light_sampling != LightSampling::bsdf;
-  const AliasTable& table = aim ? scene.all_lights() : scene.delta_lights();
-  vec3 sum(0);
-  if (table.empty()) return sum;
-  auto n = static_cast<float>(settings.light_samples);
-  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.light_samples); ++i) {
-    AliasTable::Sample choice =
-        table.sample(table.size() > 1 ? sampler.get_1d(Dimension::light_choice, i) : 0);
-    auto light = sample_light(scene.lights()[choice.index], vertex.reference,
-                              sampler.get_2d(Dimension::light_position, i));
+namespace {
+
+/// As many as are asked at once: enough for full vectors, and all that is known of them stays in the
+/// first-level cache.
+constexpr std::size_t kChunk = 64;
+
+/// One light sample for each of at most kChunk seekers.
+void aim_once(const RenderScene& scene, const AliasTable& table, std::span<LightSeeker> seekers,
+              std::uint32_t index, const PathSettings& settings, RayCounts& counts) {
+  std::array<Sampler::Draw, kChunk> draws;
+  std::array<vec2, kChunk> u;
+  const std::size_t count = seekers.size();
+  for (std::size_t k = 0; k < count; ++k) draws[k] = {seekers[k].sampler, index};
+  const std::span<const Sampler::Draw> asked(draws.data(), count);
+  Sampler::get_2d(asked, Dimension::light_position, u);
+
+  std::array<float, kChunk> pmf;
+  std::array<LightQuery, kChunk> queries;
+  std::array<std::optional<LightSample>, kChunk> lights;
+  for (std::size_t k = 0; k < count; ++k) {
+    // One number chooses the light and, stretched again, the place on it: so the samples of each light are
+    // spread well, too. Between lamps of alike size that halves the noise of numbers of their own.
+    AliasTable::Sample choice = table.sample(u[k].x);
+    pmf[k] = choice.pmf;
+    queries[k] = {&scene.lights()[choice.index], &seekers[k].vertex->reference, vec2(choice.u, u[k].y)};
+  }
+  sample_lights({queries.data(), count}, lights);
+
+  const auto n = static_cast<float>(settings.light_samples);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::optional<LightSample>& light = lights[k];
+    const Vertex& vertex = *seekers[k].vertex;
     // All that is aimed from reflects.
     if (!light || glm::dot(light->direction, vertex.reference.normal) <= 0) continue;
     vec3 wi_local = vertex.frame.to_local(light->direction);
-    BsdfEval e = direction_eval_pdf(bsdf, vertex.wo_local, wi_local, settings.direction_sampling);
+    BsdfEval e = direction_eval_pdf(*seekers[k].bsdf, vertex.wo_local, wi_local, settings.direction_sampling);
     vec3 contribution = e.f_cos * light->radiance;
     if (is_black(contribution)) continue;
     float through = visibility(scene, vertex.surface, *light, counts);
     if (through == 0) continue;
-    float pdf = choice.pmf * light->pdf;
+    float pdf = pmf[k] * light->pdf;
     float weight = 1;
     if (!light->delta && settings.light_sampling == LightSampling::mis)
-      weight = mis_weight(settings.mis_heuristic, n * pdf, static_cast<float>(scattered) * e.pdf);
-    sum += contribution * (through * weight / (pdf * n));
+      weight = mis_weight(settings.mis_heuristic, n * pdf, static_cast<float>(seekers[k].scattered) * e.pdf);
+    seekers[k].light += contribution * (through * weight / (pdf * n));
   }
-  return sum;
+}
+
+} // namespace
+
+void aim_at_lights(const RenderScene& scene, std::span<LightSeeker> seekers, const PathSettings& settings,
+                   RayCounts& counts) {
+  bool aim = settings.light_sampling != LightSampling::bsdf;
+  const AliasTable& table = aim ? scene.all_lights() : scene.delta_lights();
+  if (table.empty()) return;
+  for (std::size_t begin = 0; begin < seekers.size(); begin += kChunk)
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.light_samples); ++i)
+      aim_once(scene, table, seekers.subspan(begin, std::min(kChunk, seekers.size() - begin)), i, settings,
+               counts);
 }
 
 } // namespace candela

@@ -30,14 +30,7 @@ vec3 flat_point_error(vec3 corner, vec3 edge1, vec3 edge2) {
 
 LightSample towards(const LightReference& ref, vec3 point, vec3 point_error, vec3 normal, vec3 radiance,
                     float pdf) {
-  LightSample s;
-  s.direction = glm::normalize(point - ref.position);
-  s.point = point;
-  s.point_error = point_error;
-  s.point_normal = normal;
-  s.radiance = radiance;
-  s.pdf = pdf;
-  return s;
+  return {glm::normalize(point - ref.position), point, point_error, normal, radiance, pdf};
 }
 
 } // namespace
@@ -55,23 +48,107 @@ float TriangleLight::pdf(const LightReference& ref, vec3 point, vec3) const {
   return solid_angle_density(ref, point, normal, area, two_sided);
 }
 
+RectangleLight::RectangleLight(vec3 c, vec3 x, vec3 y, vec3 radiance, bool both_sides)
+    : corner(c), edge_x(x), edge_y(y), normal(glm::normalize(glm::cross(x, y))), axis_x(glm::normalize(x)),
+      axis_y(glm::normalize(y)), length_x(glm::length(x)), length_y(glm::length(y)),
+      point_error(flat_point_error(c, x, y)), emission(radiance), two_sided(both_sides) {}
+
+namespace {
+
+SphericalRectangle seen_from(const RectangleLight& light, const LightReference& ref) {
+  return {light.corner,   light.axis_x,   light.axis_y, light.normal,
+          light.length_x, light.length_y, ref.position};
+}
+
+LightSample towards_rectangle(const RectangleLight& light, const LightReference& ref, float x, float y,
+                              float pdf) {
+  return towards(ref, light.corner + x * light.axis_x + y * light.axis_y, light.point_error, light.normal,
+                 light.emission, pdf);
+}
+
+std::optional<LightSample> sample_area(const RectangleLight& light, const LightReference& ref, vec2 u) {
+  LightSample s = towards_rectangle(light, ref, u.x * light.length_x, u.y * light.length_y, 0);
+  s.pdf = solid_angle_density(ref, s.point, light.normal, light.area(), light.two_sided);
+  if (!(s.pdf > 0)) return std::nullopt;
+  return s;
+}
+
+} // namespace
+
 std::optional<LightSample> RectangleLight::sample(const LightReference& ref, vec2 u) const {
   if (!faces(ref, corner, normal, two_sided)) return std::nullopt;
-  vec3 error = flat_point_error(corner, edge_x, edge_y);
-  SphericalRectangle seen(corner, edge_x, edge_y, ref.position);
-  if (seen.solid_angle >= SphericalRectangle::kMinSolidAngle)
-    return towards(ref, seen.sample(u), error, normal, emission, 1 / seen.solid_angle);
-  vec3 p = corner + u.x * edge_x + u.y * edge_y;
-  float density = solid_angle_density(ref, p, normal, area, two_sided);
-  if (!(density > 0)) return std::nullopt;
-  return towards(ref, p, error, normal, emission, density);
+  SphericalRectangle seen = seen_from(*this, ref);
+  if (seen.solid_angle < SphericalRectangle::kMinSolidAngle) return sample_area(*this, ref, u);
+  vec2 place = seen.place(u);
+  return towards_rectangle(*this, ref, place.x, place.y, 1 / seen.solid_angle);
 }
 
 float RectangleLight::pdf(const LightReference& ref, vec3 point, vec3) const {
   if (!faces(ref, corner, normal, two_sided)) return 0;
-  SphericalRectangle seen(corner, edge_x, edge_y, ref.position);
-  if (seen.solid_angle >= SphericalRectangle::kMinSolidAngle) return 1 / seen.solid_angle;
-  return solid_angle_density(ref, point, normal, area, two_sided);
+  float solid_angle = seen_from(*this, ref).solid_angle;
+  if (solid_angle >= SphericalRectangle::kMinSolidAngle) return 1 / solid_angle;
+  return solid_angle_density(ref, point, normal, area(), two_sided);
+}
+
+namespace {
+
+/// Samples of rectangles that wait until there are enough to fill the vector unit.
+class RectangleQueue {
+public:
+  RectangleQueue(std::span<const LightQuery> queries, std::span<std::optional<LightSample>> samples)
+      : queries_(queries), samples_(samples) {}
+  ~RectangleQueue() { flush(); }
+
+  void push(std::uint32_t i) {
+    const LightQuery& query = queries_[i];
+    const RectangleLight& light = std::get<RectangleLight>(*query.light);
+    if (!faces(*query.reference, light.corner, light.normal, light.two_sided)) {
+      samples_[i].reset();
+      return;
+    }
+    vec3 d = light.corner - query.reference->position;
+    const std::size_t n = batch_.count++;
+    index_[n] = i;
+    auto wide = [](float value) { return static_cast<double>(value); };
+    batch_.x0[n] = wide(glm::dot(d, light.axis_x)), batch_.y0[n] = wide(glm::dot(d, light.axis_y));
+    batch_.z[n] = wide(std::abs(glm::dot(d, light.normal)));
+    batch_.length_x[n] = wide(light.length_x), batch_.length_y[n] = wide(light.length_y);
+    batch_.u[n] = wide(query.u.x), batch_.v[n] = wide(query.u.y);
+    if (batch_.count == RectangleBatch::kSize) flush();
+  }
+
+private:
+  void flush() {
+    sample_rectangles(batch_);
+    for (std::size_t n = 0; n < batch_.count; ++n) {
+      const LightQuery& query = queries_[index_[n]];
+      const RectangleLight& light = std::get<RectangleLight>(*query.light);
+      auto solid_angle = static_cast<float>(batch_.solid_angle[n]);
+      samples_[index_[n]] = solid_angle >= SphericalRectangle::kMinSolidAngle
+                                ? towards_rectangle(light, *query.reference, static_cast<float>(batch_.x[n]),
+                                                    static_cast<float>(batch_.y[n]), 1 / solid_angle)
+                                : sample_area(light, *query.reference, query.u);
+    }
+    batch_.count = 0;
+  }
+
+  std::span<const LightQuery> queries_;
+  std::span<std::optional<LightSample>> samples_;
+  RectangleBatch batch_;
+  std::array<std::uint32_t, RectangleBatch::kSize> index_;
+};
+
+} // namespace
+
+void sample_lights(std::span<const LightQuery> queries, std::span<std::optional<LightSample>> samples) {
+  RectangleQueue rectangles(queries, samples);
+  for (std::uint32_t i = 0; i < queries.size(); ++i) {
+    const LightQuery& query = queries[i];
+    if (std::holds_alternative<RectangleLight>(*query.light))
+      rectangles.push(i);
+    else
+      samples[i] = sample_light(*query.light, *query.reference, query.u);
+  }
 }
 
 std::optional<LightSample> SphereLight::sample(const LightReference& ref, vec2 u) const {
@@ -215,7 +292,7 @@ float light_power(const Light& light, float scene_radius) {
     decltype(distant)& relative;
     float section;
     float operator()(const TriangleLight& l) const { return area(l.emission, l.area, l.two_sided); }
-    float operator()(const RectangleLight& l) const { return area(l.emission, l.area, l.two_sided); }
+    float operator()(const RectangleLight& l) const { return area(l.emission, l.area(), l.two_sided); }
     float operator()(const SphereLight& l) const {
       return area(l.emission, 4 * kPi * sqr(l.radius), l.two_sided);
     }

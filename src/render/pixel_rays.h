@@ -29,8 +29,12 @@ public:
   /// Starts the sampler at the sample and draws its place in the pixel's filter and on the lens.
   PixelRay start(uvec2 pixel, std::uint32_t sample, Sampler& sampler) const {
     sampler.start(pixel, sample);
-    FilterSample filter = filter_.sample(sampler.get_2d(Dimension::film));
-    vec2 lens = camera_.has_lens() ? sampler.get_2d(Dimension::lens) : vec2(0);
+    return at(pixel, sampler.get_2d(Dimension::film),
+              camera_.has_lens() ? sampler.get_2d(Dimension::lens) : vec2(0));
+  }
+  /// The same from numbers that were drawn before.
+  PixelRay at(uvec2 pixel, vec2 film, vec2 lens) const {
+    FilterSample filter = filter_.sample(film);
     return {camera_.ray(vec2(pixel) + 0.5f + filter.offset, lens), filter.weight};
   }
 

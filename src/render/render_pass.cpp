@@ -7,6 +7,7 @@
 #include "render/whitted_integrator.h"
 
 #include <omp.h>
+#include <span>
 
 namespace candela {
 
@@ -33,47 +34,94 @@ PathSample ambient_occlusion_sample(const RenderScene& scene, const Ray& ray, Sa
   return sample;
 }
 
-/// Samples one pixel after another; one per tile.
+struct SampleIndex {
+  uvec2 pixel;
+  std::uint32_t sample;
+};
+
+/// Evaluates samples, many at a time; one per thread.
 class PixelSampler {
 public:
   PixelSampler(const RenderScene& scene, const Document& document)
       : scene_(scene), settings_(document.settings), view_(accumulated_view(settings_.view)), rays_(document),
-        sampler_(PixelRays::sampler(settings_.sampler)) {}
+        sampler_(PixelRays::sampler(settings_.sampler)), paths_(scene, path_settings(settings_)) {}
 
-  PixelSample sample(uvec2 pixel, std::uint32_t index, RayCounts& counts) {
-    return sample(pixel, index, counts, settings_);
-  }
-
-  /// The path segment at which a sample stops being finite: the shortest path that is not (found by tracing
-  /// again).
-  int nonfinite_depth(uvec2 pixel, std::uint32_t index) {
-    RayCounts ignored;
-    RenderSettings limited = settings_;
-    for (int depth = 1; depth < 1000; ++depth) {
-      limited.path.max_depth = depth;
-      if (!is_finite(sample(pixel, index, ignored, limited).value)) return depth;
+  /// results[i] becomes what sample indices[i] adds to its pixel.
+  void sample(std::span<const SampleIndex> indices, std::span<PixelSample> results, RayCounts& counts) {
+    start(indices);
+    counts.samples += indices.size();
+    if (shows_light() && follows_paths()) {
+      parts_.resize(indices.size());
+      paths_.trace(starts_, parts_, counts);
+      for (std::size_t i = 0; i < indices.size(); ++i) results[i] = show(parts_[i]);
+    } else {
+      for (std::size_t i = 0; i < indices.size(); ++i) results[i] = alone(starts_[i], counts);
     }
-    return 0;
+    for (std::size_t i = 0; i < indices.size(); ++i) { // as the pixel's filter weighs them
+      results[i].value *= weights_[i];
+      results[i].parts *= weights_[i];
+    }
   }
 
-private:
-  PixelSample sample(uvec2 pixel, std::uint32_t index, RayCounts& counts, const RenderSettings& settings) {
-    PixelRay start = rays_.start(pixel, index, sampler_);
-    ++counts.samples;
-    PixelSample result = along(start.ray, settings, counts);
-    result.value *= start.weight;
-    result.parts *= start.weight;
+  PixelSample sample(const SampleIndex& index) {
+    PixelSample result;
+    RayCounts ignored;
+    sample({&index, 1}, {&result, 1}, ignored);
     return result;
   }
 
-  /// What the ray sees, before the filter weighs it.
-  PixelSample along(const Ray& ray, const RenderSettings& settings, RayCounts& counts) {
-    PixelSample result;
-    if (view_ != View::radiance && view_ != View::depth_share && view_ != View::light_share) {
-      result.value = first_hit_value(scene_, ray, rays_.camera().forward(), view_, sampler_, counts);
-      return result;
+private:
+  static PathSettings path_settings(const RenderSettings& settings) {
+    PathSettings path = settings.path;
+    if (settings.integrator == Integrator::direct)
+      path.max_depth = path.max_depth < 0 ? 2 : std::min(path.max_depth, 2);
+    return path;
+  }
+
+  bool shows_light() const {
+    return view_ == View::radiance || view_ == View::depth_share || view_ == View::light_share;
+  }
+  bool follows_paths() const {
+    return settings_.integrator == Integrator::path || settings_.integrator == Integrator::direct;
+  }
+
+  /// Makes the camera rays.
+  void start(std::span<const SampleIndex> indices) {
+    starts_.assign(indices.size(), {Ray(), sampler_});
+    draws_.clear();
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      starts_[i].sampler.start(indices[i].pixel, indices[i].sample);
+      draws_.push_back({&starts_[i].sampler, 0});
     }
-    PathSample& parts = result.parts = estimate(ray, settings, counts);
+    film_.resize(indices.size());
+    lens_.assign(indices.size(), vec2(0));
+    Sampler::get_2d(draws_, Dimension::film, film_);
+    if (rays_.camera().has_lens()) Sampler::get_2d(draws_, Dimension::lens, lens_);
+    weights_.resize(indices.size());
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      PixelRay ray = rays_.at(indices[i].pixel, film_[i], lens_[i]);
+      starts_[i].ray = ray.ray;
+      weights_[i] = ray.weight;
+    }
+  }
+
+  /// Of an integrator or a view that takes one sample after the other.
+  PixelSample alone(PathStart& start, RayCounts& counts) {
+    PixelSample result;
+    if (!shows_light())
+      result.value =
+          first_hit_value(scene_, start.ray, rays_.camera().forward(), view_, start.sampler, counts);
+    else if (settings_.integrator == Integrator::whitted)
+      result = show(whitted_radiance(scene_, start.ray, start.sampler, settings_.path, counts));
+    else
+      result = show(ambient_occlusion_sample(scene_, start.ray, start.sampler, settings_, counts));
+    return result;
+  }
+
+  /// What the view makes of the light.
+  PixelSample show(const PathSample& parts) const {
+    PixelSample result;
+    result.parts = parts;
     switch (view_) {
     case View::depth_share:
       result.value = {luminance(parts.emitted + parts.direct), luminance(parts.one_bounce),
@@ -84,31 +132,35 @@ private:
       break;
     default:
       result.value = parts.radiance();
-      if (settings.path.clamp > 0) result.value = glm::min(result.value, settings.path.clamp);
+      if (settings_.path.clamp > 0) result.value = glm::min(result.value, settings_.path.clamp);
     }
     return result;
-  }
-
-  PathSample estimate(const Ray& ray, const RenderSettings& settings, RayCounts& counts) {
-    switch (settings.integrator) {
-    case Integrator::path: return path_radiance(scene_, ray, sampler_, settings.path, counts);
-    case Integrator::direct: {
-      PathSettings direct = settings.path;
-      direct.max_depth = direct.max_depth < 0 ? 2 : std::min(direct.max_depth, 2);
-      return path_radiance(scene_, ray, sampler_, direct, counts);
-    }
-    case Integrator::whitted: return whitted_radiance(scene_, ray, sampler_, settings.path, counts);
-    case Integrator::ao: return ambient_occlusion_sample(scene_, ray, sampler_, settings, counts);
-    }
-    return {};
   }
 
   const RenderScene& scene_;
   const RenderSettings& settings_;
   View view_;
   PixelRays rays_;
-  Sampler sampler_;
+  Sampler sampler_; ///< of the document's kind
+  PathTracer paths_;
+  // Parallel to the samples in flight:
+  std::vector<PathStart> starts_;
+  std::vector<Sampler::Draw> draws_;
+  std::vector<vec2> film_, lens_;
+  std::vector<float> weights_;
+  std::vector<PathSample> parts_;
 };
+
+/// The path segment at which a sample stops being finite: the shortest path that is not (found by tracing
+/// again).
+int nonfinite_depth(const RenderScene& scene, const Document& document, const SampleIndex& index) {
+  Document limited = document;
+  for (int depth = 1; depth < 1000; ++depth) {
+    limited.settings.path.max_depth = depth;
+    if (!is_finite(PixelSampler(scene, limited).sample(index).value)) return depth;
+  }
+  return 0;
+}
 
 struct Window {
   int x0, y0, x1, y1;
@@ -122,40 +174,69 @@ Window clip(const CropWindow& crop, const Film& film) {
 
 /// What a pass needs at every tile.
 struct PassJob {
+  const RenderScene& scene;
+  const Document& document;
   const SampleRange& range;
-  const AdaptiveSettings& adaptive;
   Film& film;
   const std::array<Film*, 3>& components;
 };
 
-void sample_pixel(PixelSampler& sampler, uvec2 pixel, std::uint32_t begin, std::uint32_t end,
-                  const PassJob& job, PassResult& result) {
-  int x = static_cast<int>(pixel.x), y = static_cast<int>(pixel.y);
-  for (std::uint32_t i = begin; i < end; ++i) {
-    PixelSample s = sampler.sample(pixel, i, result.rays);
+/// Collects samples until there are enough to be worth a batch, and adds what comes of them to the film in
+/// the order that they came in.
+class SampleQueue {
+public:
+  /// Enough that the last, short paths of a batch hardly matter, few enough for the second-level cache.
+  static constexpr std::size_t kSize = 256;
+
+  SampleQueue(PixelSampler& sampler, const PassJob& job) : sampler_(sampler), job_(job) {
+    indices_.reserve(kSize);
+    samples_.resize(kSize);
+  }
+
+  void push(const SampleIndex& index, PassResult& result) {
+    indices_.push_back(index);
+    if (indices_.size() == kSize) flush(result);
+  }
+
+  void flush(PassResult& result) {
+    sampler_.sample(indices_, {samples_.data(), indices_.size()}, result.rays);
+    for (std::size_t i = 0; i < indices_.size(); ++i) add(indices_[i], samples_[i], result);
+    indices_.clear();
+  }
+
+private:
+  void add(const SampleIndex& index, const PixelSample& s, PassResult& result) {
+    int x = static_cast<int>(index.pixel.x), y = static_cast<int>(index.pixel.y);
     if (is_finite(s.value)) {
-      job.film.add(x, y, s.value);
+      job_.film.add(x, y, s.value);
       const vec3 parts[3] = {s.parts.emitted, s.parts.direct, s.parts.indirect()};
       for (std::size_t c = 0; c < 3; ++c)
-        if (job.components[c] != nullptr) job.components[c]->add(x, y, parts[c]);
-      continue;
+        if (job_.components[c] != nullptr) job_.components[c]->add(x, y, parts[c]);
+      return;
     }
-    job.film.add_nonfinite(x, y);
+    job_.film.add_nonfinite(x, y);
     ++result.nonfinite.count;
     if (result.nonfinite.records.size() < NonFiniteLog::kMaxRecords)
-      result.nonfinite.records.push_back({pixel, i, sampler.nonfinite_depth(pixel, i)});
+      result.nonfinite.records.push_back(
+          {index.pixel, index.sample, nonfinite_depth(job_.scene, job_.document, index)});
   }
-}
 
-void sample_window(PixelSampler& sampler, const Window& window, std::uint32_t begin, std::uint32_t end,
+  PixelSampler& sampler_;
+  const PassJob& job_;
+  std::vector<SampleIndex> indices_;
+  std::vector<PixelSample> samples_;
+};
+
+void sample_window(SampleQueue& queue, const Window& window, std::uint32_t begin, std::uint32_t end,
                    const PassJob& job, PassResult& result) {
   const int step = job.range.lattice, skip = job.range.skip_lattice;
   auto up = [&](int v) { return (v + step - 1) / step * step; };
   for (int y = up(window.y0); y < window.y1; y += step)
     for (int x = up(window.x0); x < window.x1; x += step) {
       if (skip > 0 && x % skip == 0 && y % skip == 0) continue;
-      sample_pixel(sampler, uvec2(x, y), begin, end, job, result);
+      for (std::uint32_t i = begin; i < end; ++i) queue.push({uvec2(x, y), i}, result);
     }
+  queue.flush(result);
 }
 
 /// Whether the block is as good as the settings ask for.
@@ -170,14 +251,15 @@ bool block_converged(const Film& film, const Window& block, float error) {
 /// Samples the block up to the end of the range or to where it converges. That is asked only at sample
 /// numbers that are multiples of min_spp, so the answer does not depend on how passes divide the samples.
 /// Returns whether the block has stopped.
-bool sample_adaptively(PixelSampler& sampler, const Window& block, const PassJob& job, PassResult& result) {
+bool sample_adaptively(SampleQueue& queue, const Window& block, const PassJob& job, PassResult& result) {
+  const AdaptiveSettings& adaptive = job.document.settings.adaptive;
   if (job.film.stopped(block.x0, block.y0)) return true;
-  auto every = static_cast<std::uint32_t>(job.adaptive.min_spp);
+  auto every = static_cast<std::uint32_t>(adaptive.min_spp);
   for (std::uint32_t i = job.range.begin; i < job.range.end;) {
     std::uint32_t check = (i / every + 1) * every, end = std::min(check, job.range.end);
-    sample_window(sampler, block, i, end, job, result);
+    sample_window(queue, block, i, end, job, result);
     i = end;
-    if (i == check && block_converged(job.film, block, job.adaptive.error)) {
+    if (i == check && block_converged(job.film, block, adaptive.error)) {
       for (int y = block.y0; y < block.y1; ++y)
         for (int x = block.x0; x < block.x1; ++x) job.film.stop(x, y);
       return true;
@@ -186,9 +268,9 @@ bool sample_adaptively(PixelSampler& sampler, const Window& block, const PassJob
   return false;
 }
 
-void render_tile(PixelSampler& sampler, const Window& tile, const PassJob& job, PassResult& result) {
-  if (job.adaptive.error <= 0 || job.range.lattice > 1 || job.range.skip_lattice > 0) {
-    sample_window(sampler, tile, job.range.begin, job.range.end, job, result);
+void render_tile(SampleQueue& queue, const Window& tile, const PassJob& job, PassResult& result) {
+  if (job.document.settings.adaptive.error <= 0 || job.range.lattice > 1 || job.range.skip_lattice > 0) {
+    sample_window(queue, tile, job.range.begin, job.range.end, job, result);
     return;
   }
   result.converged = true;
@@ -196,7 +278,7 @@ void render_tile(PixelSampler& sampler, const Window& tile, const PassJob& job, 
     for (int x = tile.x0; x < tile.x1; x = (x / kBlockSize + 1) * kBlockSize) {
       Window block{x, y, std::min((x / kBlockSize + 1) * kBlockSize, tile.x1),
                    std::min((y / kBlockSize + 1) * kBlockSize, tile.y1)};
-      result.converged &= sample_adaptively(sampler, block, job, result);
+      result.converged &= sample_adaptively(queue, block, job, result);
     }
 }
 
@@ -212,19 +294,23 @@ PassResult render_pass(const RenderScene& scene, const Document& document, const
   int tiles = std::max(columns, 0) * std::max(rows, 0);
   std::vector<PassResult> results(static_cast<std::size_t>(tiles));
   int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
-  const PassJob job{range, document.settings.adaptive, film, options.components};
+  const PassJob job{scene, document, range, film, options.components};
   bool stopped = false;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads) reduction(|| : stopped)
-  for (int t = 0; t < tiles; ++t) {
-    if (stop.load(std::memory_order_relaxed)) {
-      stopped = true;
-      continue;
-    }
-    int x = (first_column + t % columns) * kTileSize, y = (first_row + t / columns) * kTileSize;
-    Window tile{std::max(x, window.x0), std::max(y, window.y0), std::min(x + kTileSize, window.x1),
-                std::min(y + kTileSize, window.y1)};
+#pragma omp parallel num_threads(threads) reduction(|| : stopped)
+  {
     PixelSampler sampler(scene, document);
-    render_tile(sampler, tile, job, results[static_cast<std::size_t>(t)]);
+    SampleQueue queue(sampler, job);
+#pragma omp for schedule(dynamic, 1)
+    for (int t = 0; t < tiles; ++t) {
+      if (stop.load(std::memory_order_relaxed)) {
+        stopped = true;
+        continue;
+      }
+      int x = (first_column + t % columns) * kTileSize, y = (first_row + t / columns) * kTileSize;
+      Window tile{std::max(x, window.x0), std::max(y, window.y0), std::min(x + kTileSize, window.x1),
+                  std::min(y + kTileSize, window.y1)};
+      render_tile(queue, tile, job, results[static_cast<std::size_t>(t)]);
+    }
   }
   PassResult total;
   total.converged = !stopped;
@@ -240,8 +326,7 @@ PassResult render_pass(const RenderScene& scene, const Document& document, const
 }
 
 vec3 replay_sample(const RenderScene& scene, const Document& document, uvec2 pixel, std::uint32_t sample) {
-  RayCounts ignored;
-  return PixelSampler(scene, document).sample(pixel, sample, ignored).value;
+  return PixelSampler(scene, document).sample({pixel, sample}).value;
 }
 
 float display_scale(const RenderScene& scene, const RenderSettings& settings) {

@@ -112,11 +112,8 @@ void RenderScene::add_emitters() {
     // Sheared ones are left to their triangles below.
     float lengths = glm::length(r.edge_x) * glm::length(r.edge_y);
     if (!m.emissive || std::abs(glm::dot(r.edge_x, r.edge_y)) > 1e-6f * lengths) continue;
-    vec3 c = glm::cross(r.edge_x, r.edge_y);
-    float area = glm::length(c);
-    if (!(area > 0)) continue;
-    add(r.first_triangle,
-        RectangleLight{r.corner, r.edge_x, r.edge_y, c / area, area, aimed(m), m.two_sided_emission});
+    if (!(length_squared(glm::cross(r.edge_x, r.edge_y)) > 0)) continue;
+    add(r.first_triangle, RectangleLight(r.corner, r.edge_x, r.edge_y, aimed(m), m.two_sided_emission));
     light_of_emitter_[r.first_triangle + 1] = light_of_emitter_[r.first_triangle];
   }
   const TriangleSet& world = g.world();

@@ -15,9 +15,7 @@ bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler,
   const Accel& accel = scene.geometry().accel();
   for (std::uint32_t crossing = 0; crossing < kMaxCrossings; ++crossing) {
     ++counts.closest;
-    auto found = accel.intersect(ray);
-    if (!found) return false;
-    hit = *found;
+    if (!accel.intersect(ray, hit)) return false;
     if (!scene.has_transparency()) return true;
     float opacity = scene.material(scene.geometry().material_of(hit)).opacity;
     if (opacity >= 1 || sampler.get_1d(Dimension::opacity, crossing) < opacity) return true;

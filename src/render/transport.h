@@ -30,12 +30,20 @@ inline float mis_weight(MisHeuristic how, float mine, float other) {
 /// A hit made ready for scattering.
 struct Vertex {
   Surface surface;
-  const SurfaceMaterial* material = nullptr;
-  vec3 wo{0}; ///< unit, where the ray came from
+  const SurfaceMaterial* material;
+  vec3 wo; ///< unit, where the ray came from
   Basis frame;
-  vec3 wo_local{0};
-  float side = 0;           ///< cosine of wo with the geometric normal: > 0 outside
+  vec3 wo_local;
+  float side;               ///< cosine of wo with the geometric normal: > 0 outside
   LightReference reference; ///< of this point, for aiming at lights
+
+  /// Made in place: copies of what has just been written by parts stall the processor.
+  Vertex(const RenderScene& scene, const Ray& ray, const Hit& hit)
+      : surface(scene.geometry().surface(ray, hit)), material(&scene.material(surface.material)),
+        wo(-ray.direction), frame(Basis::from_normal(surface.shading_normal)), wo_local(frame.to_local(wo)),
+        side(glm::dot(wo, surface.geometric_normal)), reference{surface.position,
+                                                                side > 0 ? surface.geometric_normal
+                                                                         : -surface.geometric_normal} {}
 
   /// Whether anything sensible scatters here: not where the interpolated normal looks away from the viewer.
   bool scatters() const { return wo_local.z * side > 0; }
@@ -45,17 +53,5 @@ struct Vertex {
     return (glm::dot(wi, surface.geometric_normal) * side > 0) == reflected;
   }
 };
-
-inline Vertex make_vertex(const Surface& surface, const SurfaceMaterial& material, vec3 wo) {
-  Vertex v;
-  v.surface = surface;
-  v.material = &material;
-  v.wo = wo;
-  v.frame = Basis::from_normal(surface.shading_normal);
-  v.wo_local = v.frame.to_local(wo);
-  v.side = glm::dot(wo, surface.geometric_normal);
-  v.reference = {surface.position, v.side > 0 ? surface.geometric_normal : -surface.geometric_normal};
-  return v;
-}
 
 } // namespace candela

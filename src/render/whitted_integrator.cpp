@@ -48,9 +48,9 @@ private:
         add_background(path, depth);
         return;
       }
-      Surface surface = scene_.geometry().surface(path.ray, hit);
-      const SurfaceMaterial& material = scene_.material(surface.material);
-      Vertex vertex = make_vertex(surface, material, -path.ray.direction);
+      const Vertex vertex(scene_, path.ray, hit);
+      const Surface& surface = vertex.surface;
+      const SurfaceMaterial& material = *vertex.material;
       bool outside = vertex.side > 0;
       if (material.absorbing && !outside)
         path.throughput *= glm::exp(-material.absorption * glm::length(surface.position - path.previous));
@@ -58,10 +58,11 @@ private:
         sample_.add(path.throughput * material.emission, depth);
       if (depth == last_depth_ || !vertex.scatters()) return;
       Bsdf bsdf = material.diffuse_texture != nullptr ? evaluate_bsdf(material, surface) : material.bsdf;
-      if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1)
-        sample_.add_aimed(path.throughput *
-                              aim_at_lights(scene_, vertex, bsdf, sampler_, settings_, 0, counts_),
-                          depth + 1);
+      if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1) {
+        LightSeeker seeker{&vertex, &bsdf, &sampler_, 0};
+        aim_at_lights(scene_, {&seeker, 1}, settings_, counts_);
+        sample_.add_aimed(path.throughput * seeker.light, depth + 1);
+      }
       if (!leave(path, vertex, bsdf, depth)) return;
     }
   }

@@ -11,15 +11,14 @@ namespace candela {
 inline vec2 sample_uniform_disc(vec2 u) {
   vec2 p = 2.0f * u - 1.0f;
   bool wide = std::abs(p.x) > std::abs(p.y);
-  float radius = wide ? p.x : p.y;
-  if (radius == 0) return vec2(0);
+  float radius = select(wide, p.x, p.y);
   // Sine and cosine of r quarter turns, |r| <= 1/2, by minimax polynomials (error 4e-9): the same bits on
   // every machine, where libm picks variants with fused multiply-add at run time, and quicker.
-  float r = 0.5f * ((wide ? p.y : p.x) / radius);
+  float r = 0.5f * (select(wide, p.y, p.x) / (radius == 0 ? 1 : radius));
   float r2 = r * r;
   float s = r * (1.5707963217f + r2 * (-0.6459634602f + r2 * (0.0796800328f + r2 * -0.0046016579f)));
   float c = 1 + r2 * (-1.2337005426f + r2 * (0.2536692260f + r2 * (-0.0208601651f + r2 * 0.0009037666f)));
-  return radius * (wide ? vec2(c, s) : vec2(s, c));
+  return radius * vec2(select(wide, c, s), select(wide, s, c));
 }
 inline constexpr float kUniformDiscPdf = kInvPi;
 

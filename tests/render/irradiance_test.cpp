@@ -53,6 +53,7 @@ void expect_irradiance(SceneMaker scene, dvec3 irradiance, bool by_chance = true
     d.settings.path.mis_heuristic = strategy.heuristic;
     d.settings.path.direction_sampling = strategy.direction;
     d.settings.path.light_samples = strategy.light_samples;
+    d.settings.path.rr = RussianRoulette::off; // its noise has tests of its own
     d.settings.stop.spp *= strategy.spp_factor;
     Film film = render(d);
     for (int c = 0; c < 3; ++c) {

@@ -91,8 +91,7 @@ void expect_density(const L& light, vec3 reference, vec3 towards, double width, 
 }
 
 RectangleLight rectangle(vec3 corner, vec3 x, vec3 y, bool two_sided = false) {
-  vec3 c = glm::cross(x, y);
-  return {corner, x, y, glm::normalize(c), glm::length(c), {1, 2, 3}, two_sided};
+  return {corner, x, y, {1, 2, 3}, two_sided};
 }
 TriangleLight triangle(vec3 corner, vec3 a, vec3 b, bool two_sided = false) {
   vec3 c = glm::cross(a, b);

@@ -47,7 +47,7 @@ TEST(SamplerIntegrationStatistical, AnyCountIsUnbiased) {
   auto f = [](const Sampler& s) {
     vec2 p = s.get_2d(Dimension::bsdf_direction);
     return smooth(s) * (0.2 + std::sqrt(double(p.x)) * double(p.y) * double(p.y)) *
-           (double(s.get_1d(Dimension::light_choice)) < 0.3 ? 2.0 : 0.5);
+           (double(s.get_1d(Dimension::bsdf_lobe)) < 0.3 ? 2.0 : 0.5);
   };
   const double exact = kSmoothIntegral * (0.2 + 2.0 / 9.0) * 0.95;
   const std::uint32_t counts[] = {1, 3, 7, 100};
