@@ -185,7 +185,7 @@ TEST(AccelRange, IsOpenAtBothEnds) {
   EXPECT_EQ(t_in(0, kInfinity), 2);
   EXPECT_EQ(t_in(-5, kInfinity), 2);
   EXPECT_EQ(t_in(0, 2), -1);
-  EXPECT_EQ(t_in(0, next_float_up(2)), 2);
+  EXPECT_EQ(t_in(0, std::nextafter(2.0f, 3.0f)), 2);
   EXPECT_EQ(t_in(2, kInfinity), 4);
   EXPECT_EQ(t_in(4, kInfinity), 8);
   EXPECT_EQ(t_in(8, kInfinity), 10); // the sphere's far side

@@ -94,15 +94,6 @@ TEST(Basis, IsOrthonormalAndRightHanded) {
   }
 }
 
-TEST(Ray, NextFloats) {
-  EXPECT_EQ(next_float_up(1.0f), std::nextafter(1.0f, 2.0f));
-  EXPECT_EQ(next_float_down(1.0f), std::nextafter(1.0f, 0.0f));
-  EXPECT_EQ(next_float_up(-1.0f), std::nextafter(-1.0f, 0.0f));
-  EXPECT_EQ(next_float_up(-0.0f), std::numeric_limits<float>::denorm_min());
-  EXPECT_EQ(next_float_down(0.0f), -std::numeric_limits<float>::denorm_min());
-  EXPECT_EQ(next_float_up(kInfinity), kInfinity);
-}
-
 TEST(Ray, OffsetGoesToTheSideOfTheDirectionBeyondTheError) {
   SCOPED_TRACE(seed_note());
   for (std::uint64_t i = 0; i < 20000; ++i) {
