@@ -58,7 +58,7 @@ public:
       for (std::size_t i = 0; i < indices.size(); ++i) results[i] = alone(starts_[i], counts);
     }
     for (std::size_t i = 0; i < indices.size(); ++i) { // as the pixel's filter weighs them
-      if (weights_[i] == 1) continue; // always, for most filters
+      if (weights_[i] == 1) continue;                  // always, for most filters
       results[i].value *= weights_[i];
       results[i].parts *= weights_[i];
     }
