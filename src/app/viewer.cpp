@@ -29,6 +29,7 @@ constexpr int kFramesToSettle = 3;
 // Without a GPU every drawn frame is taken from the renderer; 30 a second look smooth, input may have 60.
 constexpr double kPictureInterval = 1 / 30.0;
 constexpr double kInputInterval = 1 / 60.0;
+constexpr double kHandInterval = 1 / 240.0;
 /// While a picture is awaited, drawing the old one would only delay it.
 constexpr double kWaitingInterval = 1 / 15.0;
 /// Of the wall time, to draw a picture that only becomes less noisy.
@@ -223,7 +224,11 @@ double Viewer::next_frame() const {
   if (!wants_redraw()) return now_ + idle_seconds();
   double due = now_ + refining_interval();
   if (awaited_picture_is_there()) due = drawn_at_ + kInputInterval; // perhaps at once
-  if (has_pending_events() || fly_command().any()) due = std::min(due, now_ + kInputInterval);
+  if (has_pending_events() || fly_command().any()) {
+    // While the hand moves the camera a frame without a new picture only hands in, and costs next to nothing.
+    const bool only_hands_in = gesture_ != Gesture::none && !awaited_picture_is_there();
+    due = std::min(due, now_ + (only_hands_in ? kHandInterval : kInputInterval));
+  }
   const bool coarse = state_.picture && state_.picture->frame->spp < 1;
   if (owes_drawing_)
     due = std::min(due, owed_since_ + kWaitingInterval);

@@ -174,7 +174,6 @@ void RenderSession::State::restart() {
   }
   const FilmSettings& size = current.settings.film;
   film.resize(size.width, size.height);
-  film_stale = true;
   rays = {};
   nonfinite = {};
   render_seconds = 0;
@@ -239,12 +238,8 @@ void RenderSession::State::render_pass_of(int most_samples) {
   if (coarse) {
     range.lattice = kCoarseLevels[level];
     range.skip_lattice = first ? 0 : kCoarseLevels[level - 1];
-    if (film_stale && first) {
-      film.clear(range.lattice); // the rest can wait until the first picture is shown
-    } else if (film_stale) {
-      film.clear(1, range.skip_lattice);
-      film_stale = false;
-    }
+    film.clear(range.lattice,
+               range.skip_lattice); // of the image before; all at once would keep a hand waiting
   } else {
     // Enough samples a pass to be worth its synchronisation, few enough to publish often.
     job = schedule.next(1);
@@ -274,8 +269,8 @@ void RenderSession::State::render_pass_of(int most_samples) {
   if (!pass.completed) return;
   if (coarse) {
     ++level;
-    if (level == std::size(kCoarseLevels)) spp = 1, film_stale = false, first_pass_seconds = render_seconds;
-    publish(true);
+    if (level == std::size(kCoarseLevels)) spp = 1, first_pass_seconds = render_seconds;
+    if (first || !stop) publish(true); // a newer edit waits
   } else {
     seconds_per_sample =
         taken / (static_cast<double>(job.end - job.begin) * job.window.width * job.window.height);

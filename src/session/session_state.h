@@ -94,7 +94,6 @@ struct RenderSession::State {
   RayCounts rays;
   NonFiniteLog nonfinite;
   double render_seconds = 0;
-  bool film_stale = true; ///< it holds samples of the accumulation before, but where the first level cleared
   std::size_t begun_level = 0; ///< which of kCoarseLevels this accumulation began with
   std::size_t level = 0;       ///< next of kCoarseLevels
   Recycler<Frame> frames;
