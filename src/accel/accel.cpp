@@ -7,6 +7,7 @@
 #include "core/error.h"
 
 #include <algorithm>
+#include <exception>
 
 namespace candela {
 
@@ -16,6 +17,9 @@ namespace {
 
 /// Beyond, products of coordinates overflow; so does what the file that holds them meant.
 constexpr float kMaxCoordinate = 1e12f;
+
+/// Fewer primitives are built by the caller's thread.
+constexpr std::size_t kTeamWork = 4096;
 
 bool usable(vec3 p) {
   return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
@@ -96,26 +100,24 @@ struct RefList {
     // In chunks, each of which closes its own gaps: they are closed at once where nothing was left out.
     const std::size_t chunks = count / 4096 + 1;
     std::vector<std::size_t> used(chunks, 0);
+    std::vector<RangeBounds> bounds_in(chunks);
     auto begin = [&](std::size_t chunk) { return first + count * chunk / chunks; };
-#pragma omp parallel if (chunks > 1)
-    {
+#pragma omp taskloop default(shared) grainsize(4)
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+      if (stage.cancelled()) continue;
       RangeBounds mine;
-#pragma omp for schedule(dynamic, 4)
-      for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-        if (stage.cancelled()) continue;
-        BuildRef* out = &refs[begin(chunk)];
-        for (std::size_t i = begin(chunk); i < begin(chunk + 1); ++i) {
-          const Bounds3 b = bounds_of(i - first);
-          if (b.empty()) continue;
-          *out = BuildRef::make(b, static_cast<std::uint32_t>(i - first), kind);
-          mine.grow(*out++);
-        }
-        used[chunk] = static_cast<std::size_t>(out - &refs[begin(chunk)]);
+      BuildRef* out = &refs[begin(chunk)];
+      for (std::size_t i = begin(chunk); i < begin(chunk + 1); ++i) {
+        const Bounds3 b = bounds_of(i - first);
+        if (b.empty()) continue;
+        *out = BuildRef::make(b, static_cast<std::uint32_t>(i - first), kind);
+        mine.grow(*out++);
       }
-#pragma omp critical
-      bounds.merge(mine);
+      used[chunk] = static_cast<std::size_t>(out - &refs[begin(chunk)]);
+      bounds_in[chunk] = mine;
     }
     stage.check();
+    for (const RangeBounds& b : bounds_in) bounds.merge(b);
     std::size_t end = first;
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
       if (end != begin(chunk)) std::copy_n(&refs[begin(chunk)], used[chunk], &refs[end]);
@@ -173,25 +175,9 @@ void fill_pack(AccelTree& tree, const AccelInput& input, const HugeVector<BuildR
   }
 }
 
-} // namespace
-
-Accel::Accel() = default;
-Accel::~Accel() = default;
-Accel::Accel(Accel&&) noexcept = default;
-Accel& Accel::operator=(Accel&&) noexcept = default;
-Accel::Accel(std::unique_ptr<const AccelTree> tree) : tree_(std::move(tree)) {}
-
-std::uint64_t Accel::build_work(std::size_t primitives) { return kWorkPerPrimitive * primitives; }
-
-Accel Accel::build(const AccelInput& input, BuildQuality quality, Progress* progress) {
-  std::size_t count =
-      input.triangles.size() + input.spheres.size() + input.discs.size() + input.instances.size();
-  if (count > kMaxPrimitives)
-    throw limit_error({}, "scene", "more than 2^28 primitives", "use fewer, or instances");
-  for (const InstanceGeometry& instance : input.instances)
-    if (instance.object && instance.object->stats().instances)
-      throw limit_error({}, "instance", "its object holds instances itself", "flatten the hierarchy");
-
+/// Within a team of threads, to which the stages give tasks.
+std::unique_ptr<AccelTree> build_tree(const AccelInput& input, std::size_t count, BuildQuality quality,
+                                      Progress* progress) {
   const BuildStage making_refs(progress, StageWork::refs), filling_packs(progress, StageWork::packs);
   making_refs.check();
   auto tree = std::make_unique<AccelTree>();
@@ -213,8 +199,8 @@ Accel Accel::build(const AccelInput& input, BuildQuality quality, Progress* prog
   stats.skipped = count - used;
   stats.bytes = sizeof(AccelTree);
   making_refs.done(used);
-  if (progress) progress->advance(build_work(stats.skipped));
-  if (used == 0) return Accel(std::move(tree));
+  if (progress) progress->advance(Accel::build_work(stats.skipped));
+  if (used == 0) return tree;
 
   const BinaryBvh binary = build_binary_bvh(std::move(list.refs), list.bounds,
                                             !std::has_single_bit(list.kinds), quality, progress);
@@ -227,7 +213,7 @@ Accel Accel::build(const AccelInput& input, BuildQuality quality, Progress* prog
   tree->spheres.resize(wide.packs[static_cast<std::size_t>(LeafKind::spheres)]);
   tree->discs.resize(wide.packs[static_cast<std::size_t>(LeafKind::discs)]);
   tree->instances.resize(wide.packs[static_cast<std::size_t>(LeafKind::instance)]);
-#pragma omp parallel for schedule(static) if (wide.leaves.size() > 1000)
+#pragma omp taskloop default(shared) num_tasks(64)
   for (std::size_t i = 0; i < wide.leaves.size(); ++i) fill_pack(*tree, input, binary.refs, wide.leaves[i]);
   filling_packs.done(used);
 
@@ -238,6 +224,41 @@ Accel Accel::build(const AccelInput& input, BuildQuality quality, Progress* prog
   stats.bytes += tree->nodes.size() * sizeof(WideNode) + tree->triangles.size() * sizeof(TrianglePack) +
                  tree->spheres.size() * sizeof(SpherePack) + tree->discs.size() * sizeof(DiscPack) +
                  tree->instances.size() * sizeof(InstanceRecord);
+  return tree;
+}
+
+} // namespace
+
+Accel::Accel() = default;
+Accel::~Accel() = default;
+Accel::Accel(Accel&&) noexcept = default;
+Accel& Accel::operator=(Accel&&) noexcept = default;
+Accel::Accel(std::unique_ptr<const AccelTree> tree) : tree_(std::move(tree)) {}
+
+std::uint64_t Accel::build_work(std::size_t primitives) { return kWorkPerPrimitive * primitives; }
+
+Accel Accel::build(const AccelInput& input, BuildQuality quality, Progress* progress) {
+  std::size_t count =
+      input.triangles.size() + input.spheres.size() + input.discs.size() + input.instances.size();
+  if (count > kMaxPrimitives)
+    throw limit_error({}, "scene", "more than 2^28 primitives", "use fewer, or instances");
+  for (const InstanceGeometry& instance : input.instances)
+    if (instance.object && instance.object->stats().instances)
+      throw limit_error({}, "instance", "its object holds instances itself", "flatten the hierarchy");
+
+  // One team for all stages rather than one each: at the end of its work a team waits for the slowest of its
+  // threads, and where others use the machine that may be one that does not run at all. Tasks are taken by
+  // those that do.
+  std::unique_ptr<AccelTree> tree;
+  std::exception_ptr error;
+#pragma omp parallel if (count >= kTeamWork)
+#pragma omp single
+  try {
+    tree = build_tree(input, count, quality, progress);
+  } catch (...) { // no exception may leave the region
+    error = std::current_exception();
+  }
+  if (error) std::rethrow_exception(error);
   return Accel(std::move(tree));
 }
 

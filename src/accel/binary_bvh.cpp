@@ -36,8 +36,6 @@ public:
     other_.resize(root.count);
     pack_price_ = kPackPrice * bounds.box.half_area() / static_cast<float>(root.count);
     ForestCosts cost;
-#pragma omp parallel if (root.count >= kTaskRange)
-#pragma omp single
     build_subtree(root, {bvh_.refs.data(), other_.data()}, bounds, 1, cost);
     stage_.check();
   }

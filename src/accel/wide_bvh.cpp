@@ -216,7 +216,7 @@ WideBvh collapse(const BinaryBvh& bvh, BuildQuality quality, Progress* progress)
   TopEmitter top(bvh, plan);
   top.emit(bvh.root(), 1);
   std::vector<Fragment>& fragments = top.fragments;
-#pragma omp parallel for schedule(dynamic, 1) if (fragments.size() > 1)
+#pragma omp taskloop default(shared) grainsize(1)
   for (Fragment& fragment : fragments) {
     if (stage.cancelled()) continue;
     fragment.wide.root = FragmentEmitter(bvh, plan, fragment.wide).emit(fragment.from, fragment.depth);
@@ -248,7 +248,7 @@ WideBvh collapse(const BinaryBvh& bvh, BuildQuality quality, Progress* progress)
   wide.packs = end.packs;
   wide.nodes.resize(end.node);
   wide.leaves.resize(end.leaf);
-#pragma omp parallel for schedule(dynamic, 1) if (fragments.size() > 1)
+#pragma omp taskloop default(shared) grainsize(1)
   for (std::size_t i = 0; i < top.order.size(); ++i) {
     WideNode* node = wide.nodes.data() + base[i].node;
     if (!top.order[i].is_fragment) {
