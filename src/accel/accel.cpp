@@ -7,6 +7,7 @@
 #include "core/error.h"
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 
 namespace candela {
@@ -106,21 +107,22 @@ struct RefList {
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
       if (stage.cancelled()) continue;
       RangeBounds mine;
-      BuildRef* out = &refs[begin(chunk)];
+      BuildRef* const first_out = refs.data() + begin(chunk);
+      BuildRef* out = first_out;
       for (std::size_t i = begin(chunk); i < begin(chunk + 1); ++i) {
         const Bounds3 b = bounds_of(i - first);
         if (b.empty()) continue;
         *out = BuildRef::make(b, static_cast<std::uint32_t>(i - first), kind);
         mine.grow(*out++);
       }
-      used[chunk] = static_cast<std::size_t>(out - &refs[begin(chunk)]);
+      used[chunk] = static_cast<std::size_t>(out - first_out);
       bounds_in[chunk] = mine;
     }
     stage.check();
     for (const RangeBounds& b : bounds_in) bounds.merge(b);
     std::size_t end = first;
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
-      if (end != begin(chunk)) std::copy_n(&refs[begin(chunk)], used[chunk], &refs[end]);
+      if (end != begin(chunk)) std::copy_n(refs.data() + begin(chunk), used[chunk], refs.data() + end);
       end += used[chunk];
     }
     refs.resize(end);
@@ -213,9 +215,22 @@ std::unique_ptr<AccelTree> build_tree(const AccelInput& input, std::size_t count
   tree->spheres.resize(wide.packs[static_cast<std::size_t>(LeafKind::spheres)]);
   tree->discs.resize(wide.packs[static_cast<std::size_t>(LeafKind::discs)]);
   tree->instances.resize(wide.packs[static_cast<std::size_t>(LeafKind::instance)]);
-#pragma omp taskloop default(shared) num_tasks(64)
-  for (std::size_t i = 0; i < wide.leaves.size(); ++i) fill_pack(*tree, input, binary.refs, wide.leaves[i]);
-  filling_packs.done(used);
+  constexpr std::size_t kLeavesPerTask = 512;
+  std::atomic<bool> given_up{false};
+#pragma omp taskloop default(shared) grainsize(1)
+  for (std::size_t first = 0; first < wide.leaves.size(); first += kLeavesPerTask) {
+    if (filling_packs.cancelled()) {
+      given_up = true;
+      continue;
+    }
+    std::size_t primitives = 0;
+    for (std::size_t i = first; i < std::min(first + kLeavesPerTask, wide.leaves.size()); ++i) {
+      fill_pack(*tree, input, binary.refs, wide.leaves[i]);
+      primitives += wide.leaves[i].count;
+    }
+    filling_packs.done(primitives);
+  }
+  if (given_up) throw Cancelled();
 
   stats.nodes = tree->nodes.size();
   stats.leaves = wide.leaves.size();

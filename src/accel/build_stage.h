@@ -8,7 +8,7 @@
 namespace candela::accel_detail {
 
 /// Work units that each stage takes for a primitive, in proportion to its time.
-enum class StageWork : std::uint32_t { refs = 1, binary = 14, emit = 1, packs = 1 };
+enum class StageWork : std::uint32_t { refs = 1, binary = 12, emit = 2, packs = 2 };
 inline constexpr std::uint64_t kWorkPerPrimitive = 17; ///< the sum
 
 /// Stages recurse down to subtrees that one task builds; they ask and report at the top of those, so that it

@@ -217,8 +217,9 @@ WideBvh collapse(const BinaryBvh& bvh, BuildQuality quality, Progress* progress)
   top.emit(bvh.root(), 1);
   std::vector<Fragment>& fragments = top.fragments;
 #pragma omp taskloop default(shared) grainsize(1)
-  for (Fragment& fragment : fragments) {
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
     if (stage.cancelled()) continue;
+    Fragment& fragment = fragments[i];
     fragment.wide.root = FragmentEmitter(bvh, plan, fragment.wide).emit(fragment.from, fragment.depth);
     stage.done(fragment.from.count);
   }

@@ -194,6 +194,29 @@ TEST(AccelDeterminism, AnyNumberOfThreadsBuildsTheSameTree) {
   omp_set_num_threads(threads_before);
 }
 
+/// A bumpy sheet: 64 bytes a triangle for nodes and packs, vertices and all.
+TEST(AccelStatistics, AMeshTakesFewBytes) {
+  TestScene scene;
+  constexpr std::uint32_t kSize = 150;
+  for (std::uint32_t y = 0; y <= kSize; ++y)
+    for (std::uint32_t x = 0; x <= kSize; ++x) {
+      float u = static_cast<float>(x), v = static_cast<float>(y);
+      scene.vertices.push_back(
+          {u, v, 3 * std::sin(0.1f * u) * std::cos(0.13f * v) + 0.3f * std::sin(u + 2 * v)});
+    }
+  for (std::uint32_t y = 0; y < kSize; ++y)
+    for (std::uint32_t x = 0; x < kSize; ++x) {
+      std::uint32_t a = y * (kSize + 1) + x, b = a + kSize + 1;
+      scene.triangles.push_back({a, a + 1, b + 1});
+      scene.triangles.push_back({a, b + 1, b});
+    }
+  for (BuildQuality quality : {BuildQuality::fast, BuildQuality::high}) {
+    Accel accel = Accel::build(scene.input(), quality);
+    EXPECT_EQ(accel.stats().triangles, scene.triangles.size());
+    EXPECT_LE(accel.memory_bytes(), 64 * scene.triangles.size());
+  }
+}
+
 TEST(AccelStatistics, AddUp) {
   TestScene scene = mixed_scene(1000, 0.1f);
   Accel high = Accel::build(scene.input()), fast = Accel::build(scene.input(), BuildQuality::fast);
