@@ -42,7 +42,7 @@ inline CosSin cos_sin(double angle) {
   bool first = nearest == 1, second = nearest == 2, third = nearest == 3;
   bool odd = first | third;
   double cosine = odd ? s : c, sine = odd ? c : s;
-  return {first | second ? -cosine : cosine, second | third ? -sine : sine};
+  return {(first | second) ? -cosine : cosine, (second | third) ? -sine : sine};
 }
 
 /// atan2(y, x) for y >= 0, relative error below 2e-11: a polynomial for the arc tangent of the lesser over

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace {
 
 using namespace candela;
@@ -105,6 +107,38 @@ TEST(LightStatistical, Rectangle) {
   expect_density(light, {4, 1.5f, 1}, {0, 2, 0}, 0.2);
   expect_density(light, {0, 4, 0}, {0, 2, 0}, 0.3, false); // behind
   expect_density(rectangle({-1, 2, -0.5f}, {2, 0, 0}, {0, 0, 1}, true), {0, 4, 0}, {0, 2, 0}, 0.3);
+}
+
+TEST(Light, ManySamplesAtOnceAreTheSameToTheBit) {
+  const Light lights[] = {rectangle({-1, 2, -0.5f}, {2, 0, 0}, {0, 0, 1}),
+                          rectangle({-1, 2, -0.5f}, {2, 0, 0}, {0, 0, 1}, true),
+                          rectangle({0, 40, 0}, {0.05f, 0, 0}, {0, 0, 0.05f}), // far: sampled by area
+                          triangle({-1, 2, -0.5f}, {2, 0.5f, 0}, {0.5f, 0, 1.5f}),
+                          SphereLight{{0, 3, 0}, 0.5f, {1, 2, 3}, false}};
+  std::mt19937_64 random(fresh_seed());
+  SCOPED_TRACE(seed_note());
+  std::uniform_real_distribution<float> place(-2, 4), unit(0, kOneMinusEpsilon);
+  std::vector<LightReference> references(300);
+  std::vector<LightQuery> queries;
+  for (LightReference& reference : references) {
+    reference.position = {place(random), place(random), place(random)};
+    queries.push_back(
+        {&lights[queries.size() % std::size(lights)], &reference, {unit(random), unit(random)}});
+  }
+  std::vector<std::optional<LightSample>> samples(queries.size(), LightSample());
+  sample_lights(queries, samples);
+  int seen = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    auto one = sample_light(*queries[i].light, *queries[i].reference, queries[i].u);
+    ASSERT_EQ(samples[i].has_value(), one.has_value());
+    if (!one) continue;
+    ++seen;
+    EXPECT_EQ(samples[i]->direction, one->direction);
+    EXPECT_EQ(samples[i]->point, one->point);
+    EXPECT_EQ(samples[i]->pdf, one->pdf);
+    EXPECT_EQ(samples[i]->radiance, one->radiance);
+  }
+  EXPECT_GT(seen, 100);
 }
 
 TEST(LightStatistical, Triangle) {

@@ -35,6 +35,28 @@ TEST(Sampler, ANumberDependsOnItsKeyAlone) {
   }
 }
 
+TEST(Sampler, ManyDrawsAtOnceAreTheSameToTheBit) {
+  for (SamplerType type : kSamplerTypes)
+    for (std::uint32_t count : {0u, 1u, 15u, 64u, 150u}) { // less and more than is made at once
+      std::vector<Sampler> samplers(count, Sampler(type, 7, 3));
+      std::vector<Sampler::Draw> draws;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        samplers[i].start({i % 5, i / 5}, hash32(i) >> (i % 32));
+        samplers[i].set_bounce(i % 4);
+        draws.push_back({&samplers[i], i % 3});
+      }
+      std::vector<vec2> points(count);
+      std::vector<float> numbers(count);
+      Sampler::get_2d(draws, Dimension::bsdf_direction, points);
+      Sampler::get_1d(draws, Dimension::russian_roulette, numbers);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        ASSERT_EQ(points[i], samplers[i].get_2d(Dimension::bsdf_direction, i % 3))
+            << static_cast<int>(type) << ' ' << i;
+        ASSERT_EQ(numbers[i], samplers[i].get_1d(Dimension::russian_roulette, i % 3));
+      }
+    }
+}
+
 TEST(Sampler, StartGoesToBounceZero) {
   for (SamplerType type : kSamplerTypes) {
     Sampler a(type, 1), b(type, 1);

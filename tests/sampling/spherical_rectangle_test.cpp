@@ -158,6 +158,46 @@ TEST(SphericalRectangle, CosineAndSine) {
   }
 }
 
+TEST(SphericalRectangle, AngleFromTheXAxis) {
+  for (int i = 0; i <= 100000; ++i) {
+    double angle = std::numbers::pi * i / 100000, radius = std::exp2(i % 64 - 32);
+    double x = radius * std::cos(angle), y = radius * std::abs(std::sin(angle));
+    ASSERT_NEAR(detail::angle_from_x_axis(y, x), std::atan2(y, x), 3e-11 * angle + 1e-15) << angle;
+  }
+  EXPECT_EQ(detail::angle_from_x_axis(0, 0), 0);
+  EXPECT_EQ(detail::angle_from_x_axis(0, 2), 0);
+  EXPECT_DOUBLE_EQ(detail::angle_from_x_axis(0, -2), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(detail::angle_from_x_axis(3, 0), std::numbers::pi / 2);
+}
+
+TEST(SphericalRectangle, ManyAtOnceAreTheSameToTheBit) {
+  std::mt19937_64 random(fresh_seed() + 3);
+  SCOPED_TRACE(seed_note());
+  std::uniform_real_distribution<double> place(-3, 3), size(0.01, 2), unit(0, 1);
+  for (std::size_t count : {1u, 7u, 8u, 64u}) {
+    RectangleBatch batch;
+    batch.count = count;
+    for (std::size_t i = 0; i < count; ++i) {
+      batch.x0[i] = place(random), batch.y0[i] = place(random);
+      batch.z[i] = i == 3 ? 0 : size(random); // one in its own plane
+      batch.length_x[i] = size(random), batch.length_y[i] = size(random);
+      batch.u[i] = unit(random), batch.v[i] = unit(random);
+    }
+    sample_rectangles(batch);
+    for (std::size_t i = 0; i < count; ++i) {
+      ProjectedRectangle one(batch.x0[i], batch.y0[i], batch.z[i], batch.length_x[i], batch.length_y[i]);
+      EXPECT_EQ(batch.solid_angle[i], one.solid_angle);
+      if (batch.z[i] == 0) {
+        EXPECT_EQ(batch.solid_angle[i], 0);
+        continue;
+      }
+      auto at = one.sample(batch.u[i], batch.v[i]);
+      EXPECT_EQ(batch.x[i], at.x);
+      EXPECT_EQ(batch.y[i], at.y);
+    }
+  }
+}
+
 TEST(SphericalTriangle, OctantAndSubdivision) {
   vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   EXPECT_NEAR(spherical_triangle_solid_angle(x, y, z), kPi / 2, 1e-6);
