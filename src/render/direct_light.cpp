@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kChunk = 64;
 
 /// One light sample for each of at most kChunk seekers.
-void aim_once(const RenderScene& scene, const AliasTable& table, std::span<LightSeeker> seekers,
+void aim_once(const RenderScene& scene, const LightSelection& selection, std::span<LightSeeker> seekers,
               std::uint32_t index, const PathSettings& settings, RayCounts& counts) {
   std::array<Sampler::Draw, kChunk> draws;
   std::array<vec2, kChunk> u;
@@ -19,25 +19,30 @@ void aim_once(const RenderScene& scene, const AliasTable& table, std::span<Light
   Sampler::get_2d(asked, Dimension::light_position, u);
 
   std::array<float, kChunk> pmf;
+  std::array<LightSeeker*, kChunk> asking; // those that a light may reach
   std::array<LightQuery, kChunk> queries;
   std::array<std::optional<LightSample>, kChunk> lights;
+  std::size_t queried = 0;
   for (std::size_t k = 0; k < count; ++k) {
     // One number chooses the light and, stretched again, the place on it: so the samples of each light are
     // spread well, too. Between lamps of alike size that halves the noise of numbers of their own.
-    AliasTable::Sample choice = table.sample(u[k].x);
-    pmf[k] = choice.pmf;
-    queries[k] = {&scene.lights()[choice.index], &seekers[k].vertex->reference, vec2(choice.u, u[k].y)};
+    const LightReference& reference = seekers[k].vertex->reference;
+    auto choice = selection.choose(reference, u[k].x);
+    if (!choice) continue;
+    pmf[queried] = choice->pmf;
+    asking[queried] = &seekers[k];
+    queries[queried++] = {&scene.lights()[choice->light], &reference, vec2(choice->u, u[k].y)};
   }
-  sample_lights({queries.data(), count}, lights);
+  sample_lights({queries.data(), queried}, lights);
 
   const auto n = static_cast<float>(settings.light_samples);
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < queried; ++k) {
     const std::optional<LightSample>& light = lights[k];
-    const Vertex& vertex = *seekers[k].vertex;
+    const Vertex& vertex = *asking[k]->vertex;
     // All that is aimed from reflects.
     if (!light || glm::dot(light->direction, vertex.reference.normal) <= 0) continue;
     vec3 wi_local = vertex.frame.to_local(light->direction);
-    BsdfEval e = direction_eval_pdf(*seekers[k].bsdf, vertex.wo_local, wi_local, settings.direction_sampling);
+    BsdfEval e = direction_eval_pdf(*asking[k]->bsdf, vertex.wo_local, wi_local, settings.direction_sampling);
     vec3 contribution = e.f_cos * light->radiance;
     if (is_black(contribution)) continue;
     float through = visibility(scene, vertex.surface, *light, counts);
@@ -45,8 +50,8 @@ void aim_once(const RenderScene& scene, const AliasTable& table, std::span<Light
     float pdf = pmf[k] * light->pdf;
     float weight = 1;
     if (!light->delta && settings.light_sampling == LightSampling::mis)
-      weight = mis_weight(settings.mis_heuristic, n * pdf, static_cast<float>(seekers[k].scattered) * e.pdf);
-    seekers[k].light += contribution * (through * weight / (pdf * n));
+      weight = mis_weight(settings.mis_heuristic, n * pdf, static_cast<float>(asking[k]->scattered) * e.pdf);
+    asking[k]->light += contribution * (through * weight / (pdf * n));
   }
 }
 
@@ -55,12 +60,12 @@ void aim_once(const RenderScene& scene, const AliasTable& table, std::span<Light
 void aim_at_lights(const RenderScene& scene, std::span<LightSeeker> seekers, const PathSettings& settings,
                    RayCounts& counts) {
   bool aim = settings.light_sampling != LightSampling::bsdf;
-  const AliasTable& table = aim ? scene.all_lights() : scene.delta_lights();
-  if (table.empty()) return;
+  const LightSelection& selection = aim ? scene.all_lights() : scene.delta_lights();
+  if (selection.empty()) return;
   for (std::size_t begin = 0; begin < seekers.size(); begin += kChunk)
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.light_samples); ++i)
-      aim_once(scene, table, seekers.subspan(begin, std::min(kChunk, seekers.size() - begin)), i, settings,
-               counts);
+      aim_once(scene, selection, seekers.subspan(begin, std::min(kChunk, seekers.size() - begin)), i,
+               settings, counts);
 }
 
 } // namespace candela

@@ -99,9 +99,9 @@ void PathTracer::add_background(const Path& path, int depth) {
   if (!shows_depth(settings_, depth)) return;
   for (std::uint32_t i : scene_.infinite_lights()) {
     const Light& light = scene_.lights()[i];
-    float aimed = needs_aimed_pdf(path)
-                      ? scene_.all_lights().pmf(i) * light_pdf(light, path.reference, {}, path.ray.direction)
-                      : 0;
+    float aimed = needs_aimed_pdf(path) ? scene_.all_lights().pmf(path.reference, i) *
+                                              light_pdf(light, path.reference, {}, path.ray.direction)
+                                        : 0;
     results_[path.result].add(
         path.throughput * light_radiance(light, path.ray.direction) * weight_by_chance(path, aimed), depth);
   }
@@ -113,7 +113,7 @@ void PathTracer::add_emission(const Path& path, const Vertex& vertex, int depth)
   if (needs_aimed_pdf(path)) {
     std::uint32_t i = scene_.light_of(vertex.surface.emitter);
     if (i != kNoLight)
-      aimed = scene_.all_lights().pmf(i) *
+      aimed = scene_.all_lights().pmf(path.reference, i) *
               light_pdf(scene_.lights()[i], path.reference, vertex.surface.position, path.ray.direction);
   }
   results_[path.result].add(path.throughput * vertex.material->emission * weight_by_chance(path, aimed),

@@ -49,15 +49,16 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document, 
   scene->add_emitters();
   scene->add_lights(desc.lights, previous);
 
-  std::vector<float> power, delta_power;
   Bounds3 bounds = scene->geometry_->finite_bounds();
   float radius = bounds.empty() ? 1.0f : std::max(0.5f * glm::length(bounds.diagonal()), 1e-6f);
-  for (const Light& light : scene->lights_) {
-    power.push_back(light_power(light, radius));
-    delta_power.push_back(is_delta_light(light) ? power.back() : 0.0f);
+  std::vector<std::uint32_t> all, delta;
+  for (std::uint32_t i = 0; i < scene->lights_.size(); ++i) {
+    all.push_back(i);
+    if (is_delta_light(scene->lights_[i])) delta.push_back(i);
   }
-  scene->all_lights_ = AliasTable(power);
-  scene->delta_lights_ = AliasTable(delta_power);
+  LightChoiceBy how = document.settings.path.light_choice;
+  scene->all_lights_ = LightSelection(scene->lights_, all, how, radius);
+  scene->delta_lights_ = LightSelection(scene->lights_, delta, how, radius);
   return scene;
 }
 
@@ -193,6 +194,7 @@ void RenderScene::add_lights(const std::vector<LightDesc>& lights, const RenderS
 std::size_t RenderScene::memory_bytes() const {
   std::size_t bytes = geometry_->memory_bytes() + materials_.size() * sizeof(SurfaceMaterial) +
                       lights_.size() * sizeof(Light) + light_of_emitter_.size() * sizeof(std::uint32_t);
+  bytes += all_lights_.memory_bytes() + delta_lights_.memory_bytes();
   for (const auto& texture : textures_) bytes += texture->srgb.size();
   for (const auto& map : environment_maps_) bytes += map->memory_bytes();
   return bytes;

@@ -3,8 +3,7 @@
 
 #include "bsdf/bsdf.h"
 #include "render/geometry.h"
-#include "render/light.h"
-#include "sampling/distribution.h"
+#include "render/light_selection.h"
 #include "scene/document.h"
 
 namespace candela {
@@ -44,10 +43,10 @@ public:
   }
   const std::vector<std::uint32_t>& infinite_lights() const { return infinite_lights_; }
 
-  /// Choice of a light in proportion to its power: among all, or among those that no direction can hit by
+  /// Choice of a light as path.light_choice has it: among all, or among those that no direction can hit by
   /// chance.
-  const AliasTable& all_lights() const { return all_lights_; }
-  const AliasTable& delta_lights() const { return delta_lights_; }
+  const LightSelection& all_lights() const { return all_lights_; }
+  const LightSelection& delta_lights() const { return delta_lights_; }
 
   std::size_t memory_bytes() const;
 
@@ -60,7 +59,7 @@ private:
   std::vector<std::uint32_t> light_of_emitter_; ///< empty where no surface shines
   std::vector<std::uint32_t> infinite_lights_;
   std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
-  AliasTable all_lights_, delta_lights_;
+  LightSelection all_lights_, delta_lights_;
   bool has_transparency_ = false;
 
   void add_materials(const Document& document);

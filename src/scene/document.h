@@ -12,6 +12,7 @@ namespace candela {
 
 enum class Integrator : int { path, direct, whitted, ao };
 enum class LightSampling : int { bsdf, nee, mis };
+enum class LightChoiceBy : int { power, contribution };
 enum class MisHeuristic : int { balance, power };
 enum class RussianRoulette : int { off, throughput, fixed };
 enum class PathComponent : int { all, emitted, direct, indirect };
@@ -68,6 +69,7 @@ struct PathSettings {
   LightSampling light_sampling = LightSampling::mis;
   MisHeuristic mis_heuristic = MisHeuristic::power;
   int light_samples = 1; ///< shadow rays a vertex
+  LightChoiceBy light_choice = LightChoiceBy::contribution;
   DirectionSampling direction_sampling = DirectionSampling::bsdf;
   int max_depth = -1; ///< 1: emitters seen directly, 2: direct light, -1: no limit
   RussianRoulette rr = RussianRoulette::throughput;

@@ -17,6 +17,7 @@ constexpr std::string_view kSamplers[] = {"independent", "stratified", "halton",
                                           "pmj02",       "lattice",    "blue_noise"};
 constexpr std::string_view kIntegrators[] = {"path", "direct", "whitted", "ao"};
 constexpr std::string_view kLightSampling[] = {"bsdf", "nee", "mis"};
+constexpr std::string_view kLightChoices[] = {"power", "contribution"};
 constexpr std::string_view kHeuristics[] = {"balance", "power"};
 constexpr std::string_view kDirections[] = {"uniform", "cosine", "bsdf"};
 constexpr std::string_view kRoulette[] = {"off", "throughput", "fixed"};
@@ -54,6 +55,11 @@ const Field<Document> kTable[] = {
      AT(settings.path.mis_heuristic)},
     {{"path.light_samples", FieldType::integer, 1, 64, "", "Shadow rays at every vertex, for nee and mis"},
      AT(settings.path.light_samples)},
+    {{"path.light_choice", FieldType::choice, 0, 0, "",
+      "Which of several lights a shadow ray goes to: by their power, or by what they may contribute to the "
+      "point",
+      Invalidates::scene, kLightChoices},
+     AT(settings.path.light_choice)},
     {{"path.direction_sampling", FieldType::choice, 0, 0, "",
       "Density of the next direction: uniform, by the cosine, or by the material", kImage, kDirections},
      AT(settings.path.direction_sampling)},

@@ -212,14 +212,15 @@ TEST(ShapeMeshRender, EmittersShineByTheirArea) {
       };
       vec3 out = sample_uniform_sphere({u(0), u(1)});
       LightReference ref{static_cast<float>(kRadius) * out, -out};
-      auto choice = scene->all_lights().sample(u(2));
-      auto light = sample_light(scene->lights()[choice.index], ref, {u(3), u(4)});
+      auto choice = scene->all_lights().choose(ref, u(2));
+      std::optional<LightSample> light;
+      if (choice) light = sample_light(scene->lights()[choice->light], ref, {u(3), u(4)});
       double e = 0;
       if (light) {
         Ray ray{ref.position, 0, light->point - ref.position, 1 - 1e-4f};
         if (!scene->geometry().accel().occluded(ray))
           e = static_cast<double>(light->radiance.x * glm::dot(light->direction, ref.normal) /
-                                  (choice.pmf * light->pdf));
+                                  (choice->pmf * light->pdf));
       }
       flux.add(e * 4 * kPiD * kRadius * kRadius);
     }
