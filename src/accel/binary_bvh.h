@@ -2,6 +2,12 @@
 // The binary tree that the wide one is made from: a top-down build that splits where the surface area
 // heuristic over bins of centroids is least (Wald 2007, "On fast Construction of SAH-based Bounding Volume
 // Hierarchies").
+//
+// No primitive is split. Cutting large triangles up beforehand (Karras and Aila 2013, "Fast Parallel
+// Construction of High-Quality Bounding Volume Hierarchies", section 4.3) was tried and made Sponza slower:
+// walls and floors, few packs that every ray tests near the root, came to lie among small things. With 2 %
+// more refs the expected cost rose by 12 %, and primary and diffuse rays lost a tenth; needles and bunny
+// gained nothing.
 
 #include "accel/accel.h"
 #include "accel/huge_pages.h"

