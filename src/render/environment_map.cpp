@@ -1,6 +1,7 @@
 #include "render/environment_map.h"
 
 #include "core/color.h"
+#include "sampling/warp.h"
 
 namespace candela {
 
@@ -56,17 +57,6 @@ float angular_steradians(float r) {
 }
 
 vec2 inside_unit_square(vec2 p) { return glm::clamp(p, vec2(0), vec2(kOneMinusEpsilon)); }
-
-/// Which of `cells` a texel begins in, and the share of the texel that lies there; the rest is in the next.
-struct Overlap {
-  int cell;
-  float share;
-};
-Overlap overlap(int texel, int texels, int cells) {
-  auto cell = static_cast<int>(std::int64_t{texel} * cells / texels);
-  double end = (cell + 1.0) * texels / cells - texel;
-  return {cell, static_cast<float>(std::min(end, 1.0))};
-}
 
 } // namespace
 
@@ -126,28 +116,27 @@ void EnvironmentMap::pad_faces() {
   padded_faces_ = std::move(bordered);
 }
 
-/// A texel of a face, or one beyond its edge as interpolation continues it.
-vec3 EnvironmentMap::texel(int face, int x, int y) const {
-  const Image& image = panorama_->image;
-  switch (mapping_) {
-  case EnvironmentMapping::latlong:
-    x = x < 0 ? x + width_ : (x >= width_ ? x - width_ : x);
-    return image.at(x, std::clamp(y, 0, height_ - 1));
-  case EnvironmentMapping::angular:
-    return image.at(std::clamp(x, 0, width_ - 1), std::clamp(y, 0, height_ - 1));
-  case EnvironmentMapping::cross:
-  case EnvironmentMapping::faces: break;
-  }
-  return padded_faces_.at(x + 1, face * (height_ + 2) + y + 1);
+/// Of a texel, or of one beyond the edge as interpolation continues it.
+int EnvironmentMap::column(int x) const {
+  if (faces_ == 6) return x + 1;
+  if (mapping_ == EnvironmentMapping::latlong) return x < 0 ? x + width_ : (x >= width_ ? x - width_ : x);
+  return std::clamp(x, 0, width_ - 1);
+}
+
+const vec3* EnvironmentMap::row(int face, int y) const {
+  const Image& image = faces_ == 6 ? padded_faces_ : panorama_->image;
+  const int line = faces_ == 6 ? face * (height_ + 2) + y + 1 : std::clamp(y, 0, height_ - 1);
+  return image.pixels.data() + static_cast<std::ptrdiff_t>(line) * image.width;
 }
 
 /// At q of a face's square [0, 1]^2, y downwards.
 vec3 EnvironmentMap::lookup(int face, vec2 q) const {
   vec2 p = q * vec2(width_, height_) - 0.5f, base = glm::floor(p), f = p - base;
-  auto x = std::clamp(static_cast<int>(base.x), -1, width_ - 1);
-  auto y = std::clamp(static_cast<int>(base.y), -1, height_ - 1);
-  return glm::mix(glm::mix(texel(face, x, y), texel(face, x + 1, y), f.x),
-                  glm::mix(texel(face, x, y + 1), texel(face, x + 1, y + 1), f.x), f.y);
+  const auto x = std::clamp(static_cast<int>(base.x), -1, width_ - 1);
+  const auto y = std::clamp(static_cast<int>(base.y), -1, height_ - 1);
+  const vec3 *above = row(face, y), *below = row(face, y + 1);
+  const int left = column(x), right = column(x + 1);
+  return glm::mix(glm::mix(above[left], above[right], f.x), glm::mix(below[left], below[right], f.x), f.y);
 }
 
 EnvironmentMap::ChartPoint EnvironmentMap::chart_point(vec3 d) const {
@@ -155,29 +144,28 @@ EnvironmentMap::ChartPoint EnvironmentMap::chart_point(vec3 d) const {
   case EnvironmentMapping::latlong: {
     float sine = std::sqrt(d.x * d.x + d.z * d.z);
     float u = std::atan2(d.x, -d.z) * (0.5f * kInvPi), v = std::atan2(sine, d.y) * kInvPi;
-    return {inside_unit_square({u < 0 ? u + 1 : u, v}), 0.5f * sqr(kInvPi) / std::max(sine, kMinSine)};
+    return {0, inside_unit_square({u < 0 ? u + 1 : u, v})};
   }
   case EnvironmentMapping::angular: {
     float sine = std::sqrt(d.x * d.x + d.y * d.y), r = std::atan2(sine, -d.z) * kInvPi;
     vec2 around = sine > 0 ? vec2(d) / sine : vec2(1, 0);
-    return {inside_unit_square(square_of_st(r * around)), 0.25f * sqr(kInvPi) / angular_steradians(r)};
+    return {0, inside_unit_square(square_of_st(r * around))};
   }
   case EnvironmentMapping::cross:
   case EnvironmentMapping::faces: break;
   }
   FacePoint at = face_point(d);
-  vec2 q = glm::clamp(square_of_st(at.st), vec2(0), vec2(1 - 1e-6f)); // or rounding ends in the next face
-  return {{q.x, (static_cast<float>(at.face) + q.y) / 6}, 1 / (24 * face_steradians(at.st))};
+  return {at.face, inside_unit_square(square_of_st(at.st))};
 }
 
-std::optional<vec3> EnvironmentMap::direction(vec2 p) const {
+std::optional<vec3> EnvironmentMap::direction(ChartPoint at) const {
   switch (mapping_) {
   case EnvironmentMapping::latlong: {
-    float phi = 2 * kPi * p.x, theta = kPi * p.y, sine = std::sin(theta);
+    float phi = 2 * kPi * at.q.x, theta = kPi * at.q.y, sine = std::sin(theta);
     return vec3(sine * std::sin(phi), std::cos(theta), -sine * std::cos(phi));
   }
   case EnvironmentMapping::angular: {
-    vec2 st = st_of_square(p);
+    vec2 st = st_of_square(at.q);
     float r = glm::length(st);
     if (r >= 1) return std::nullopt;
     vec2 around = r > 0 ? st / r : vec2(0);
@@ -186,29 +174,78 @@ std::optional<vec3> EnvironmentMap::direction(vec2 p) const {
   case EnvironmentMapping::cross:
   case EnvironmentMapping::faces: break;
   }
-  float y = 6 * p.y;
-  int face = std::min(static_cast<int>(y), 5);
-  return face_direction(face, st_of_square({p.x, y - static_cast<float>(face)}));
+  return face_direction(at.face, st_of_square(at.q));
+}
+
+/// Area of the chart, of which each face is 1 / faces_, over solid angle, at a point and its direction.
+float EnvironmentMap::per_steradian(ChartPoint at, vec3 d) const {
+  switch (mapping_) {
+  case EnvironmentMapping::latlong:
+    return 0.5f * sqr(kInvPi) / std::max(std::sqrt(d.x * d.x + d.z * d.z), kMinSine);
+  case EnvironmentMapping::angular:
+    return 0.25f * sqr(kInvPi) / angular_steradians(glm::length(st_of_square(at.q)));
+  case EnvironmentMapping::cross:
+  case EnvironmentMapping::faces: break;
+  }
+  return 1 / (24 * face_steradians(st_of_square(at.q)));
 }
 
 vec3 EnvironmentMap::radiance(vec3 d) const {
-  vec2 p = chart_point(d).p;
-  if (faces_ == 1) return lookup(0, p);
-  float y = 6 * p.y;
-  int face = std::min(static_cast<int>(y), 5);
-  return lookup(face, {p.x, y - static_cast<float>(face)});
+  ChartPoint at = chart_point(d);
+  return lookup(at.face, at.q);
 }
 
-std::optional<vec3> EnvironmentMap::sample(vec2 u) const { return direction(distribution_.sample(u).p); }
+float EnvironmentMap::density(ChartPoint at, vec3 d, vec3 radiance) const {
+  vec2 p = at.q * vec2(width_, height_);
+  const int x = std::min(static_cast<int>(p.x), width_ - 1), y = std::min(static_cast<int>(p.y), height_ - 1);
+  return luminance(radiance) * factor(x, y) * per_steradian(at, d);
+}
 
-float EnvironmentMap::pdf(vec3 d) const {
+EnvironmentMap::Seen EnvironmentMap::look(vec3 d) const {
   ChartPoint at = chart_point(d);
-  return distribution_.pdf(at.p) * at.per_steradian;
+  vec3 radiance = lookup(at.face, at.q);
+  return {d, radiance, density(at, d, radiance)};
+}
+
+/// A texel by what it sends, then a place in it: the radiance is linear in x and in y between its centre and
+/// its edges.
+std::optional<EnvironmentMap::Seen> EnvironmentMap::sample(vec2 u) const {
+  WeightedGrid::Sample cell = texels_.sample(u);
+  const auto x = static_cast<int>(cell.column), line = static_cast<int>(cell.row);
+  const int face = line / height_, y = line % height_;
+  float at_rows[3][3]; // luminance at the edges and the centre of the texel along x, at the rows' centres
+  for (int j = 0; j < 3; ++j) {
+    const vec3* texels = row(face, y + j - 1);
+    const float left = luminance(texels[column(x - 1)]), middle = luminance(texels[column(x)]),
+                right = luminance(texels[column(x + 1)]);
+    at_rows[j][0] = 0.5f * (left + middle), at_rows[j][1] = middle, at_rows[j][2] = 0.5f * (middle + right);
+  }
+  float top[3], bottom[3];
+  for (int i = 0; i < 3; ++i) {
+    top[i] = 0.5f * (at_rows[0][i] + at_rows[1][i]);
+    bottom[i] = 0.5f * (at_rows[1][i] + at_rows[2][i]);
+  }
+  const float* center = at_rows[1];
+  auto along_x = [](const float* l) { return l[0] + 2 * l[1] + l[2]; }; // four times the mean
+  vec2 p;
+  p.y = sample_linear(cell.u.y, along_x(top), along_x(center), along_x(bottom));
+  const bool upper = p.y < 0.5f;
+  const float down = upper ? 2 * p.y : 2 * p.y - 1;
+  float l[3];
+  for (int i = 0; i < 3; ++i)
+    l[i] = upper ? glm::mix(top[i], center[i], down) : glm::mix(center[i], bottom[i], down);
+  p.x = sample_linear(cell.u.x, l[0], l[1], l[2]);
+
+  ChartPoint at{face, inside_unit_square((vec2(x, y) + p) / vec2(width_, height_))};
+  auto d = direction(at);
+  if (!d) return std::nullopt;
+  vec3 radiance = lookup(face, at.q);
+  return Seen{*d, radiance, luminance(radiance) * factor(x, y) * per_steradian(at, *d)};
 }
 
 /// Of a texel: exact for latlong, by its centre for the others. One on the rim of an angular map is weighed
 /// by its innermost point, so that none that reaches into the disc has no weight.
-double EnvironmentMap::cell_solid_angle(int x, int y) const {
+double EnvironmentMap::texel_solid_angle(int x, int y) const {
   vec2 size(width_, height_), q = (vec2(x, y) + 0.5f) / size;
   switch (mapping_) {
   case EnvironmentMapping::latlong: {
@@ -228,47 +265,42 @@ double EnvironmentMap::cell_solid_angle(int x, int y) const {
   return static_cast<double>(4 * face_steradians(st_of_square(q)) / (size.x * size.y));
 }
 
+/// What makes luminance a density on the chart.
+float EnvironmentMap::factor(int x, int y) const {
+  if (!row_factor_.empty()) return row_factor_[static_cast<std::size_t>(y)];
+  return total_luminance_ > 0 ? static_cast<float>(texel_solid_angle(x, y)) * per_luminance_ : 0;
+}
+
 void EnvironmentMap::build_distribution() {
-  int most = faces_ == 1 ? kMaxCells : kMaxCells / 2;
-  int columns = std::min(width_, most), rows = std::min(height_, most);
-  cells_ = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows * faces_);
-  std::vector<float> weights(cells_);
+  std::vector<float> weights;
+  weights.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_ * faces_));
   double total = 0;
-  // A texel's cell sees a linear ramp to each neighbour: the mean of the interpolated radiance over it has
-  // the weights 1/8, 3/4, 1/8 in either direction.
+  // Between centres the radiance is a ramp: its mean over a texel has the weights 1/8, 3/4, 1/8 in either
+  // direction.
   constexpr float kShare[3] = {0.125f, 0.75f, 0.125f};
   for (int face = 0; face < faces_; ++face)
-    for (int y = 0; y < height_; ++y) {
-      Overlap row = overlap(y, height_, rows);
+    for (int y = 0; y < height_; ++y)
       for (int x = 0; x < width_; ++x) {
         float mean = 0;
         for (int j = 0; j < 3; ++j)
           for (int i = 0; i < 3; ++i)
             mean += kShare[i] * kShare[j] * luminance(texel(face, x + i - 1, y + j - 1));
-        double weight = static_cast<double>(mean) * cell_solid_angle(x, y);
+        double weight = static_cast<double>(mean) * texel_solid_angle(x, y);
         total += weight;
-        Overlap column = overlap(x, width_, columns);
-        auto add = [&](int i, int j, float share) {
-          if (!(share > 0)) return;
-          auto cell =
-              static_cast<std::size_t>(face * rows + row.cell + j) * static_cast<std::size_t>(columns) +
-              static_cast<std::size_t>(column.cell + i);
-          weights[cell] += share * static_cast<float>(weight);
-        };
-        add(0, 0, column.share * row.share);
-        add(1, 0, (1 - column.share) * row.share);
-        add(0, 1, column.share * (1 - row.share));
-        add(1, 1, (1 - column.share) * (1 - row.share));
+        weights.push_back(static_cast<float>(weight));
       }
-    }
   total_luminance_ = static_cast<float>(total);
-  distribution_ = PiecewiseConstant2D(weights, static_cast<std::size_t>(columns),
-                                      static_cast<std::size_t>(rows * faces_));
+  texels_ = WeightedGrid(weights, static_cast<std::size_t>(width_));
+  if (!(total > 0)) return;
+  per_luminance_ = static_cast<float>(static_cast<double>(weights.size()) / total);
+  if (mapping_ == EnvironmentMapping::latlong)
+    for (int y = 0; y < height_; ++y)
+      row_factor_.push_back(static_cast<float>(texel_solid_angle(0, y)) * per_luminance_);
 }
 
 std::size_t EnvironmentMap::memory_bytes() const {
   return (panorama_->image.pixels.size() + padded_faces_.pixels.size()) * sizeof(vec3) +
-         cells_ * 2 * sizeof(float); // distribution function and density
+         texels_.memory_bytes();
 }
 
 } // namespace candela

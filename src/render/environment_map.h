@@ -14,7 +14,7 @@
 //
 // An image whose sides have other proportions is stretched.
 
-#include "sampling/distribution.h"
+#include "sampling/weighted_grid.h"
 #include "scene/scene_desc.h"
 
 #include <array>
@@ -32,42 +32,53 @@ public:
   /// of a cube's faces.
   vec3 radiance(vec3 d) const;
 
-  /// A unit direction, u in [0, 1)^2; nothing for a u outside of the disc of an angular map. The density is
-  /// constant over a cell of the image (at most kMaxCells a side) but for the mapping's own distortion, and
-  /// positive wherever the interpolated radiance is.
-  std::optional<vec3> sample(vec2 u) const;
-  /// Its density, 1/sr.
-  float pdf(vec3 d) const;
+  /// A direction and what is there.
+  struct Seen {
+    vec3 direction{0}; ///< unit
+    vec3 radiance{0};
+    float pdf = 0; ///< 1/sr
+  };
+  /// u in [0, 1)^2; nothing for a u outside of the disc of an angular map. The density is the luminance of
+  /// the interpolated radiance times a factor that varies little: the solid angle of a texel over that of
+  /// the place, as if the texel were as large everywhere.
+  std::optional<Seen> sample(vec2 u) const;
+  /// radiance() and pdf() at once.
+  Seen look(vec3 d) const;
+  /// The density of sample(), 1/sr.
+  float pdf(vec3 d) const { return look(d).pdf; }
 
   /// Luminance over the sphere, W/m^2.
   float total_luminance() const { return total_luminance_; }
   std::size_t memory_bytes() const;
 
 private:
-  static constexpr int kMaxCells = 2048;
-
-  /// A point of the unit square whose cells are sampled; of a cube the faces' squares, one below the other.
+  /// A point of a face, or of an image that is none's.
   struct ChartPoint {
-    vec2 p{0};           ///< in [0, 1)^2
-    float per_steradian; ///< area of the chart over solid angle there
+    int face;
+    vec2 q; ///< in [0, 1)^2, y downwards
   };
   ChartPoint chart_point(vec3 d) const;
-  std::optional<vec3> direction(vec2 p) const;
+  std::optional<vec3> direction(ChartPoint at) const;
+  float per_steradian(ChartPoint at, vec3 d) const;
+  float density(ChartPoint at, vec3 d, vec3 radiance) const;
 
   void cut_faces();
   void pad_faces();
-  vec3 texel(int face, int x, int y) const;
+  int column(int x) const;
+  const vec3* row(int face, int y) const;
+  vec3 texel(int face, int x, int y) const { return row(face, y)[column(x)]; }
   vec3 lookup(int face, vec2 q) const;
-  double cell_solid_angle(int x, int y) const;
+  double texel_solid_angle(int x, int y) const;
+  float factor(int x, int y) const;
   void build_distribution();
 
   std::shared_ptr<const Panorama> panorama_;
   EnvironmentMapping mapping_;
-  int faces_ = 1, width_ = 0, height_ = 0; ///< of each face, in texels
-  Image padded_faces_;                     ///< cubes: with a border of one texel, one below the other
-  PiecewiseConstant2D distribution_;
-  std::size_t cells_ = 0;
-  float total_luminance_ = 0;
+  int faces_ = 1, width_ = 0, height_ = 0;        ///< of each face, in texels
+  Image padded_faces_;                            ///< cubes: with a border of one texel, one below the other
+  WeightedGrid texels_;                           ///< by what each sends; a cube's faces one below the other
+  std::vector<float> row_factor_;                 ///< latlong: factor() of a row's texels
+  float total_luminance_ = 0, per_luminance_ = 0; ///< W/m^2; texels over that
 };
 
 } // namespace candela

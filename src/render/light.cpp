@@ -265,13 +265,13 @@ std::optional<LightSample> ConstantLight::sample(const LightReference& ref, vec2
   return s;
 }
 
-std::optional<LightSample> EnvironmentLight::sample(const LightReference& ref, vec2 u) const {
-  auto local = map->sample(u);
-  if (!local) return std::nullopt;
+std::optional<LightSample> EnvironmentLight::sample(const LightReference&, vec2 u) const {
+  auto seen = map->sample(u);
+  if (!seen) return std::nullopt;
   LightSample s;
-  s.direction = world_from_map * *local;
-  s.radiance = radiance_from(s.direction);
-  s.pdf = pdf(ref, {}, s.direction);
+  s.direction = world_from_map * seen->direction;
+  s.radiance = factor * seen->radiance;
+  s.pdf = seen->pdf;
   s.infinite = true;
   if (!(s.pdf > 0)) return std::nullopt;
   return s;

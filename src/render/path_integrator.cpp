@@ -99,11 +99,16 @@ void PathTracer::add_background(const Path& path, int depth) {
   if (!shows_depth(settings_, depth)) return;
   for (std::uint32_t i : scene_.infinite_lights()) {
     const Light& light = scene_.lights()[i];
-    float aimed = needs_aimed_pdf(path) ? scene_.all_lights().pmf(path.reference, i) *
-                                              light_pdf(light, path.reference, {}, path.ray.direction)
-                                        : 0;
-    results_[path.result].add(
-        path.throughput * light_radiance(light, path.ray.direction) * weight_by_chance(path, aimed), depth);
+    vec3 radiance;
+    float aimed = 0;
+    if (needs_aimed_pdf(path)) {
+      InfiniteLook look = look_at_infinite(light, path.reference, path.ray.direction);
+      radiance = look.radiance;
+      aimed = scene_.all_lights().pmf(path.reference, i) * look.pdf;
+    } else {
+      radiance = light_radiance(light, path.ray.direction);
+    }
+    results_[path.result].add(path.throughput * radiance * weight_by_chance(path, aimed), depth);
   }
 }
 

@@ -54,6 +54,21 @@ inline vec3 sample_cosine_hemisphere(vec2 u) {
 /// In 1/sr; 0 below the horizon.
 inline float cosine_hemisphere_pdf(float cos_theta) { return std::max(cos_theta, 0.0f) * kInvPi; }
 
+/// [0, 1), density linear from a at 0 to b at 1 but for a factor; a, b >= 0, not both 0 (pbrt-v4, section
+/// A.5.1).
+inline float sample_linear(float u, float a, float b) {
+  const float divisor = a + std::sqrt(std::max(a * a + u * (b * b - a * a), 0.0f));
+  return divisor > 0 ? std::min(u * (a + b) / divisor, kOneMinusEpsilon) : u;
+}
+/// [0, 1), density linear from a at 0 to b at 1/2 and on to c at 1 but for a factor.
+inline float sample_linear(float u, float a, float b, float c) {
+  const float left = a + b, right = b + c, share = u * (left + right);
+  if (share < left) return 0.5f * sample_linear(share / left, a, b);
+  if (!(right > 0)) return u;
+  return std::min(0.5f + 0.5f * sample_linear(std::min((share - left) / right, kOneMinusEpsilon), b, c),
+                  kOneMinusEpsilon);
+}
+
 /// Barycentric coordinates, uniform over a triangle's area; density per unit area is 1/area (Heitz 2019, "A
 /// Low-Distortion Map Between Triangle and Square").
 inline vec3 sample_uniform_triangle(vec2 u) {
