@@ -117,10 +117,10 @@ std::uint32_t LightTree::build(std::span<BinaryNode> leaves, std::vector<BinaryN
   std::size_t half = leaves.size() / 2;
   if (best.axis >= 0) {
     const float lo = centers.lo[best.axis], hi = centers.hi[best.axis];
-    auto middle = std::ranges::partition(leaves, [&](const BinaryNode& leaf) {
+    auto middle = std::partition(leaves.begin(), leaves.end(), [&](const BinaryNode& leaf) {
       return bin_of(leaf.bounds.center[best.axis], lo, hi) < best.bin;
     });
-    half = leaves.size() - middle.size();
+    half = static_cast<std::size_t>(middle - leaves.begin());
   }
   std::uint32_t left = build(leaves.first(half), nodes), right = build(leaves.subspan(half), nodes);
   nodes.push_back({merge(nodes[left].bounds, nodes[right].bounds), kNone, left, right});
