@@ -88,8 +88,8 @@ TEST(ViewerHistogramUi, CountsThePictureThatIsShown) {
   const std::size_t clipped = histogram.clipped_white;
   const std::uint64_t restarts = hand.state().status.restarts;
   const auto before = inspect(hand).histogram;
+  const vec2 middle = hand.reveal("histogram.plot");
   const auto plot = *hand.find("histogram.plot");
-  const vec2 middle = 0.5f * (plot.lo + plot.hi);
   const float two_stops = 2.0f / 18 * (plot.hi.x - plot.lo.x);
   hand.drag(middle, middle + vec2(two_stops, 0));
   EXPECT_NEAR(hand.document().settings.display.exposure, 2, 0.1f);

@@ -220,7 +220,7 @@ TEST(Film, FillsTheHolesOfACoarsePass) {
   resolve_view(film, View::radiance, 4, out);
   EXPECT_EQ(out[3], vec3(1));
   EXPECT_EQ(out[4 + 2 * 5], vec3(2));
-  EXPECT_EQ(out[1 + 1 * 5], vec3(7));
+  EXPECT_EQ(out[1 + 1 * 5], vec3(1)); // of a finer lattice that is not complete: not yet
   EXPECT_EQ(film.image().at(3, 0), vec3(0));
   EXPECT_EQ(film.variance_of_mean(0, 0), vec3(0));
 }
