@@ -87,25 +87,4 @@ PiecewiseConstant1D::Sample PiecewiseConstant1D::sample(float u) const {
   return {x, pdf_[cell], static_cast<std::uint32_t>(cell)};
 }
 
-PiecewiseConstant2D::PiecewiseConstant2D(std::span<const float> weights, std::size_t width,
-                                         std::size_t height) {
-  if (width == 0 || height == 0 || weights.size() != width * height)
-    throw std::invalid_argument("a 2-D distribution needs width * height weights");
-  std::vector<float> row_integrals;
-  cells_.reserve(height);
-  for (std::size_t row = 0; row < height; ++row) {
-    cells_.emplace_back(weights.subspan(row * width, width));
-    row_integrals.push_back(cells_.back().integral());
-  }
-  rows_ = PiecewiseConstant1D(row_integrals);
-}
-
-float PiecewiseConstant2D::pdf(vec2 p) const { return rows_.pdf(p.y) * cells_[rows_.cell_of(p.y)].pdf(p.x); }
-
-PiecewiseConstant2D::Sample PiecewiseConstant2D::sample(vec2 u) const {
-  PiecewiseConstant1D::Sample row = rows_.sample(u.y);
-  PiecewiseConstant1D::Sample cell = cells_[row.cell].sample(u.x);
-  return {{cell.x, row.x}, row.pdf * cell.pdf};
-}
-
 } // namespace candela

@@ -81,25 +81,4 @@ private:
   float integral_ = 0;
 };
 
-/// The same on [0, 1)^2: a row by its sum, then a cell of the row.
-class PiecewiseConstant2D {
-public:
-  struct Sample {
-    vec2 p;    ///< in [0, 1)^2
-    float pdf; ///< per unit area
-  };
-
-  PiecewiseConstant2D() = default;
-  /// width * height weights, row by row; row r covers y in [r, r + 1) / height.
-  PiecewiseConstant2D(std::span<const float> weights, std::size_t width, std::size_t height);
-
-  float integral() const { return rows_.integral(); }
-  float pdf(vec2 p) const;
-  Sample sample(vec2 u) const;
-
-private:
-  std::vector<PiecewiseConstant1D> cells_; ///< per row
-  PiecewiseConstant1D rows_;
-};
-
 } // namespace candela

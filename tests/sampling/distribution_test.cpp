@@ -72,7 +72,6 @@ TEST(AliasTable, RejectsWhatIsNoWeight) {
     EXPECT_THROW(PiecewiseConstant1D(std::vector<float>{1, bad}), std::invalid_argument);
   }
   EXPECT_THROW(PiecewiseConstant1D(std::vector<float>{}), std::invalid_argument);
-  EXPECT_THROW(PiecewiseConstant2D(std::vector<float>{1, 2, 3}, 2, 2), std::invalid_argument);
 }
 
 TEST(AliasTableStatistical, RemappedNumberIsUniformForEachIndex) {
@@ -158,35 +157,6 @@ TEST(PiecewiseConstant, ZeroTailIsNeverDrawn) {
   weights.resize(2000, 0.0f);
   PiecewiseConstant1D d(weights);
   EXPECT_LT(d.sample(kOneMinusEpsilon).cell, 1000u);
-}
-
-TEST(PiecewiseConstantStatistical, TwoDimensions) {
-  SCOPED_TRACE(seed_note());
-  std::mt19937_64 random(fresh_seed() + 3);
-  constexpr std::size_t kWidth = 7, kHeight = 5;
-  std::vector<float> weights(kWidth * kHeight);
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    weights[i] = i % 4 == 1 || i / kWidth == 2 ? 0.0f : 0.1f + unit(random);
-  double sum = 0;
-  for (float w : weights) sum += w;
-  PiecewiseConstant2D d(weights, kWidth, kHeight);
-  EXPECT_NEAR(d.integral(), sum / (kWidth * kHeight), 1e-6);
-  // Each cell in 4 x 4 parts.
-  constexpr std::size_t kPartsX = 4 * kWidth, kPartsY = 4 * kHeight;
-  constexpr int kDraws = 1000000;
-  std::vector<double> observed(kPartsX * kPartsY), expected(kPartsX * kPartsY);
-  for (int i = 0; i < kDraws; ++i) {
-    float ux = unit(random);
-    PiecewiseConstant2D::Sample s = d.sample({ux, unit(random)});
-    ASSERT_TRUE(s.p.x >= 0 && s.p.x < 1 && s.p.y >= 0 && s.p.y < 1);
-    ASSERT_FLOAT_EQ(s.pdf, d.pdf(s.p));
-    observed[static_cast<std::size_t>(double(s.p.y) * kPartsY) * kPartsX +
-             static_cast<std::size_t>(double(s.p.x) * kPartsX)] += 1;
-  }
-  for (std::size_t y = 0; y < kPartsY; ++y)
-    for (std::size_t x = 0; x < kPartsX; ++x)
-      expected[y * kPartsX + x] = kDraws * (weights[y / 4 * kWidth + x / 4] / sum) / 16;
-  EXPECT_GT(chi_square_test(observed, expected).p_value, kFalseAlarm);
 }
 
 } // namespace
