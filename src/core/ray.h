@@ -23,7 +23,7 @@ inline vec3 offset_ray_origin(vec3 p, vec3 p_error, vec3 n, vec3 w) {
   if (glm::dot(w, n) < 0) offset = -offset;
   vec3 po = p + offset;
   // Round away from the surface: by at least the distance to the next float, and without branches, for the
-  // signs of a normal cannot be predicted (a tenth of the time of a diffuse bounce).
+  // signs of a normal cannot be predicted.
   for (int i = 0; i < 3; ++i) {
     float step = std::abs(po[i]) * std::numeric_limits<float>::epsilon() + std::numeric_limits<float>::min();
     po[i] += offset[i] == 0 ? 0.0f : std::copysign(step, offset[i]);

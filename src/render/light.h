@@ -151,7 +151,7 @@ struct LightQuery {
   const LightReference* reference;
   vec2 u;
 };
-/// sample_light() of each, to the bit. Rectangles are done side by side by the vector unit, for a fifth of
+/// sample_light() of each, to the bit. Rectangles are done side by side by the vector unit, for a third of
 /// the time.
 void sample_lights(std::span<const LightQuery> queries, std::span<std::optional<LightSample>> samples);
 

@@ -135,7 +135,7 @@ public:
     std::uint32_t index;
   };
   /// get_2d(dimension, draws[i].index) of draws[i].sampler, all of one type. Sobol' points are made side by
-  /// side by the vector unit, for an eighth of the time of one alone.
+  /// side by the vector unit, several at a time.
   static void get_2d(std::span<const Draw> draws, Dimension dimension, std::span<vec2> points);
   /// The same of get_1d.
   static void get_1d(std::span<const Draw> draws, Dimension dimension, std::span<float> points);
