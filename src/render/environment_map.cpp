@@ -56,6 +56,15 @@ float angular_steradians(float r) {
   return x > 1e-3f ? std::max(std::sin(x) / x, kMinSine) : 1;
 }
 
+/// Below this share of the whole light, what is brighter than the mean is noise rather than lamps.
+constexpr float kLeastBright = 1e-3f;
+
+/// Between the corners upper left, upper right, lower left, lower right.
+template <class T>
+T mix_square(const std::array<T, 4>& at, vec2 f) {
+  return glm::mix(glm::mix(at[0], at[1], f.x), glm::mix(at[2], at[3], f.x), f.y);
+}
+
 vec2 inside_unit_square(vec2 p) { return glm::clamp(p, vec2(0), vec2(kOneMinusEpsilon)); }
 
 } // namespace
@@ -68,7 +77,9 @@ EnvironmentMap::EnvironmentMap(std::shared_ptr<const Panorama> panorama, Environ
     cut_faces();
     pad_faces();
   }
-  build_distribution();
+  all_ = make_density(0);
+  bright_ = make_density(all_.total / (4 * kPi));
+  if (!(bright_.total > kLeastBright * all_.total)) bright_ = {};
 }
 
 /// Takes the faces' texels out of a cross or a column of faces.
@@ -130,13 +141,18 @@ const vec3* EnvironmentMap::row(int face, int y) const {
 }
 
 /// At q of a face's square [0, 1]^2, y downwards.
-vec3 EnvironmentMap::lookup(int face, vec2 q) const {
-  vec2 p = q * vec2(width_, height_) - 0.5f, base = glm::floor(p), f = p - base;
+EnvironmentMap::Footprint EnvironmentMap::footprint(int face, vec2 q) const {
+  vec2 p = q * vec2(width_, height_) - 0.5f, base = glm::floor(p);
   const auto x = std::clamp(static_cast<int>(base.x), -1, width_ - 1);
   const auto y = std::clamp(static_cast<int>(base.y), -1, height_ - 1);
   const vec3 *above = row(face, y), *below = row(face, y + 1);
   const int left = column(x), right = column(x + 1);
-  return glm::mix(glm::mix(above[left], above[right], f.x), glm::mix(below[left], below[right], f.x), f.y);
+  return {{above[left], above[right], below[left], below[right]}, p - base};
+}
+
+vec3 EnvironmentMap::lookup(int face, vec2 q) const {
+  Footprint at = footprint(face, q);
+  return mix_square(at.texels, at.f);
 }
 
 EnvironmentMap::ChartPoint EnvironmentMap::chart_point(vec3 d) const {
@@ -195,29 +211,41 @@ vec3 EnvironmentMap::radiance(vec3 d) const {
   return lookup(at.face, at.q);
 }
 
-float EnvironmentMap::density(ChartPoint at, vec3 d, vec3 radiance) const {
+namespace {
+
+/// What a texel has above the mean, or all that it has.
+float weight(vec3 texel, float dark) { return std::max(luminance(texel) - dark, 0.0f); }
+
+float mix_weights(const std::array<vec3, 4>& texels, vec2 f, float dark) {
+  return mix_square(std::array{weight(texels[0], dark), weight(texels[1], dark), weight(texels[2], dark),
+                               weight(texels[3], dark)},
+                    f);
+}
+
+} // namespace
+
+EnvironmentMap::Seen EnvironmentMap::look(vec3 d, EnvironmentAim aim) const {
+  const Density& by = density(aim);
+  ChartPoint at = chart_point(d);
+  Footprint seen = footprint(at.face, at.q);
   vec2 p = at.q * vec2(width_, height_);
   const int x = std::min(static_cast<int>(p.x), width_ - 1), y = std::min(static_cast<int>(p.y), height_ - 1);
-  return luminance(radiance) * factor(x, y) * per_steradian(at, d);
+  return {d, mix_square(seen.texels, seen.f),
+          mix_weights(seen.texels, seen.f, by.dark) * factor(by, x, y) * per_steradian(at, d)};
 }
 
-EnvironmentMap::Seen EnvironmentMap::look(vec3 d) const {
-  ChartPoint at = chart_point(d);
-  vec3 radiance = lookup(at.face, at.q);
-  return {d, radiance, density(at, d, radiance)};
-}
-
-/// A texel by what it sends, then a place in it: the radiance is linear in x and in y between its centre and
+/// A texel by what it sends, then a place in it: the weight is linear in x and in y between its centre and
 /// its edges.
-std::optional<EnvironmentMap::Seen> EnvironmentMap::sample(vec2 u) const {
-  WeightedGrid::Sample cell = texels_.sample(u);
+std::optional<EnvironmentMap::Seen> EnvironmentMap::sample(vec2 u, EnvironmentAim aim) const {
+  const Density& by = density(aim);
+  WeightedGrid::Sample cell = by.texels.sample(u);
   const auto x = static_cast<int>(cell.column), line = static_cast<int>(cell.row);
   const int face = line / height_, y = line % height_;
-  float at_rows[3][3]; // luminance at the edges and the centre of the texel along x, at the rows' centres
+  float at_rows[3][3]; // weights at the edges and the centre of the texel along x, at the rows' centres
   for (int j = 0; j < 3; ++j) {
     const vec3* texels = row(face, y + j - 1);
-    const float left = luminance(texels[column(x - 1)]), middle = luminance(texels[column(x)]),
-                right = luminance(texels[column(x + 1)]);
+    const float left = weight(texels[column(x - 1)], by.dark), middle = weight(texels[column(x)], by.dark),
+                right = weight(texels[column(x + 1)], by.dark);
     at_rows[j][0] = 0.5f * (left + middle), at_rows[j][1] = middle, at_rows[j][2] = 0.5f * (middle + right);
   }
   float top[3], bottom[3];
@@ -239,8 +267,9 @@ std::optional<EnvironmentMap::Seen> EnvironmentMap::sample(vec2 u) const {
   ChartPoint at{face, inside_unit_square((vec2(x, y) + p) / vec2(width_, height_))};
   auto d = direction(at);
   if (!d) return std::nullopt;
-  vec3 radiance = lookup(face, at.q);
-  return Seen{*d, radiance, luminance(radiance) * factor(x, y) * per_steradian(at, *d)};
+  Footprint seen = footprint(face, at.q);
+  return Seen{*d, mix_square(seen.texels, seen.f),
+              mix_weights(seen.texels, seen.f, by.dark) * factor(by, x, y) * per_steradian(at, *d)};
 }
 
 /// Of a texel: exact for latlong, by its centre for the others. One on the rim of an angular map is weighed
@@ -265,17 +294,19 @@ double EnvironmentMap::texel_solid_angle(int x, int y) const {
   return static_cast<double>(4 * face_steradians(st_of_square(q)) / (size.x * size.y));
 }
 
-/// What makes luminance a density on the chart.
-float EnvironmentMap::factor(int x, int y) const {
-  if (!row_factor_.empty()) return row_factor_[static_cast<std::size_t>(y)];
-  return total_luminance_ > 0 ? static_cast<float>(texel_solid_angle(x, y)) * per_luminance_ : 0;
+/// What makes weights a density on the chart.
+float EnvironmentMap::factor(const Density& by, int x, int y) const {
+  if (!by.row_factor.empty()) return by.row_factor[static_cast<std::size_t>(y)];
+  return by.total > 0 ? static_cast<float>(texel_solid_angle(x, y)) * by.per_luminance : 0;
 }
 
-void EnvironmentMap::build_distribution() {
+EnvironmentMap::Density EnvironmentMap::make_density(float dark) const {
+  Density made;
+  made.dark = dark;
   std::vector<float> weights;
   weights.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_ * faces_));
   double total = 0;
-  // Between centres the radiance is a ramp: its mean over a texel has the weights 1/8, 3/4, 1/8 in either
+  // Between centres the weight is a ramp: its mean over a texel has the weights 1/8, 3/4, 1/8 in either
   // direction.
   constexpr float kShare[3] = {0.125f, 0.75f, 0.125f};
   for (int face = 0; face < faces_; ++face)
@@ -284,23 +315,24 @@ void EnvironmentMap::build_distribution() {
         float mean = 0;
         for (int j = 0; j < 3; ++j)
           for (int i = 0; i < 3; ++i)
-            mean += kShare[i] * kShare[j] * luminance(texel(face, x + i - 1, y + j - 1));
-        double weight = static_cast<double>(mean) * texel_solid_angle(x, y);
-        total += weight;
-        weights.push_back(static_cast<float>(weight));
+            mean += kShare[i] * kShare[j] * weight(texel(face, x + i - 1, y + j - 1), dark);
+        double sent = static_cast<double>(mean) * texel_solid_angle(x, y);
+        total += sent;
+        weights.push_back(static_cast<float>(sent));
       }
-  total_luminance_ = static_cast<float>(total);
-  texels_ = WeightedGrid(weights, static_cast<std::size_t>(width_));
-  if (!(total > 0)) return;
-  per_luminance_ = static_cast<float>(static_cast<double>(weights.size()) / total);
+  made.total = static_cast<float>(total);
+  made.texels = WeightedGrid(weights, static_cast<std::size_t>(width_));
+  if (!(total > 0)) return made;
+  made.per_luminance = static_cast<float>(static_cast<double>(weights.size()) / total);
   if (mapping_ == EnvironmentMapping::latlong)
     for (int y = 0; y < height_; ++y)
-      row_factor_.push_back(static_cast<float>(texel_solid_angle(0, y)) * per_luminance_);
+      made.row_factor.push_back(static_cast<float>(texel_solid_angle(0, y)) * made.per_luminance);
+  return made;
 }
 
 std::size_t EnvironmentMap::memory_bytes() const {
   return (panorama_->image.pixels.size() + padded_faces_.pixels.size()) * sizeof(vec3) +
-         texels_.memory_bytes();
+         all_.texels.memory_bytes() + bright_.texels.memory_bytes();
 }
 
 } // namespace candela

@@ -265,8 +265,8 @@ std::optional<LightSample> ConstantLight::sample(const LightReference& ref, vec2
   return s;
 }
 
-std::optional<LightSample> EnvironmentLight::sample(const LightReference&, vec2 u) const {
-  auto seen = map->sample(u);
+std::optional<LightSample> EnvironmentLight::sample(const LightReference& ref, vec2 u) const {
+  auto seen = map->sample(u, ref.environment_aim());
   if (!seen) return std::nullopt;
   LightSample s;
   s.direction = world_from_map * seen->direction;

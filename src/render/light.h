@@ -1,6 +1,7 @@
 #pragma once
 // Lights as the integrator samples them. Shapes shine by their material; the others come from LightDesc.
 
+#include "bsdf/gloss.h"
 #include "core/basis.h"
 #include "core/ray.h"
 #include "render/environment_map.h"
@@ -17,6 +18,15 @@ namespace candela {
 struct LightReference {
   vec3 position{0};
   vec3 normal{0, 0, 1}; ///< unit geometric normal, turned to the side that reflects
+  /// Directions that the BSDF scatters are tried as well and weighed against those aimed: a light may leave
+  /// to them what they find well.
+  bool also_by_chance = false;
+  Gloss gloss{};    ///< what the point makes of the light, for choosing among several
+  vec3 mirrored{0}; ///< unit, the axis of the glossy lobe
+
+  EnvironmentAim environment_aim() const {
+    return also_by_chance ? EnvironmentAim::bright : EnvironmentAim::all;
+  }
 };
 
 struct LightSample {
@@ -134,8 +144,8 @@ struct EnvironmentLight {
 
   vec3 radiance_from(vec3 direction) const { return factor * map->radiance(direction * world_from_map); }
   std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
-  float pdf(const LightReference&, vec3, vec3 direction) const {
-    return map->pdf(direction * world_from_map);
+  float pdf(const LightReference& ref, vec3, vec3 direction) const {
+    return map->pdf(direction * world_from_map, ref.environment_aim());
   }
 };
 
@@ -177,7 +187,7 @@ struct InfiniteLook {
 };
 inline InfiniteLook look_at_infinite(const Light& light, const LightReference& ref, vec3 direction) {
   if (const auto* environment = std::get_if<EnvironmentLight>(&light)) {
-    auto seen = environment->map->look(direction * environment->world_from_map);
+    auto seen = environment->map->look(direction * environment->world_from_map, ref.environment_aim());
     return {environment->factor * seen.radiance, seen.pdf};
   }
   return {light_radiance(light, direction), light_pdf(light, ref, {}, direction)};

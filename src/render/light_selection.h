@@ -19,6 +19,8 @@ public:
 
   /// Nothing that shines.
   bool empty() const { return by_power_ ? powers_.empty() : tree_.empty(); }
+  /// Whether what the point is like makes a difference.
+  bool is_choice() const { return !by_power_ && tree_.size() > 1; }
   /// A light for u in [0, 1), monotonic in u but for choices by power; nothing where none seems to reach the
   /// point.
   std::optional<LightChoice> choose(const LightReference& ref, float u) const {

@@ -21,11 +21,11 @@ constexpr float kLeastDistance2 = 1e-30f;
 
 /// Irradiance in luminance (W/m^2) of a light without bounds, of those that are the same for all points: on
 /// an average plane.
-double irradiance_everywhere(const Light& light) {
+double irradiance_everywhere(const Light& light, EnvironmentAim aim) {
   if (const auto* c = std::get_if<ConstantLight>(&light))
     return static_cast<double>(kPi * luminance(c->radiance));
   if (const auto* e = std::get_if<EnvironmentLight>(&light))
-    return 0.25 * static_cast<double>(luminance(e->factor) * e->map->total_luminance());
+    return 0.25 * static_cast<double>(luminance(e->factor) * e->map->total_luminance(aim));
   return 0;
 }
 
@@ -35,7 +35,20 @@ double usual_irradiance(const Light& light) {
     return static_cast<double>(luminance(d->irradiance));
   if (const auto* p = std::get_if<PointLight>(&light)) return static_cast<double>(luminance(p->intensity));
   if (const auto* s = std::get_if<SpotLight>(&light)) return static_cast<double>(luminance(s->intensity));
-  return irradiance_everywhere(light);
+  return irradiance_everywhere(light, EnvironmentAim::all);
+}
+
+/// What the reference makes of irradiance on a facing plane, relative: of light from one direction.
+float response(const LightReference& ref, vec3 direction) {
+  const Gloss& g = ref.gloss;
+  const float cos_in = glm::dot(direction, ref.normal);
+  if (!(cos_in > 0)) return 0;
+  const float off = 1 + g.sharpness * (1 - glm::dot(direction, ref.mirrored));
+  return g.diffuse * cos_in + g.peak / sqr(off);
+}
+/// Of light from everywhere.
+float mean_response(const LightReference& ref) {
+  return ref.gloss.diffuse + ref.gloss.lobe_albedo() * kInvPi;
 }
 
 constexpr int kBins = 12;
@@ -63,7 +76,7 @@ LightTree::LightTree(std::span<const Light> lights, std::span<const std::uint32_
     } else if (strength = usual_irradiance(lights[i]); strength > 0) {
       if (apart_.size() == kMostApart) throw std::invalid_argument("too many lights without bounds");
       places_[i] = {0, static_cast<std::uint32_t>(kWidth + apart_.size())};
-      apart_.push_back({i, lights[i], 0});
+      apart_.push_back({i, lights[i], {}});
     }
     greatest = std::max(greatest, strength);
   }
@@ -71,7 +84,10 @@ LightTree::LightTree(std::span<const Light> lights, std::span<const std::uint32_
   if (count_ == 0) return;
   only_ = leaves.empty() ? apart_[0].light : leaves[0].light;
   scale_ = 1 / greatest;
-  for (Apart& a : apart_) a.irradiance = static_cast<float>(irradiance_everywhere(a.what) * scale_);
+  for (Apart& a : apart_)
+    for (EnvironmentAim aim : {EnvironmentAim::all, EnvironmentAim::bright})
+      a.irradiance[aim == EnvironmentAim::bright] =
+          static_cast<float>(irradiance_everywhere(a.what, aim) * scale_);
   std::vector<BinaryNode> nodes;
   if (leaves.empty()) {
     nodes_.emplace_back();
@@ -169,11 +185,17 @@ std::uint32_t LightTree::flatten(const std::vector<BinaryNode>& nodes, std::uint
   return index;
 }
 
-/// Estimates of the branches' irradiance at the reference (section 4.3, eq. 3; without trigonometry as in
-/// pbrt-v4), and their sum. Sines and cosines clamp at 0: cos_minus(a, b) is cos(max(a - b, 0)).
-float LightTree::judge(const Node& n, const LightReference& ref, Weights& weights) {
+float LightTree::judge(const Node& node, const LightReference& ref, Weights& weights) {
+  return ref.gloss.peak > 0 ? judge_as<true>(node, ref, weights) : judge_as<false>(node, ref, weights);
+}
+
+/// Estimates of what the branches' light does at the reference (section 4.3, eq. 3; without trigonometry as
+/// in pbrt-v4), and their sum. Sines and cosines clamp at 0: cos_minus(a, b) is cos(max(a - b, 0)).
+template <bool kGlossy>
+float LightTree::judge_as(const Node& n, const LightReference& ref, Weights& weights) {
   Lanes w;
-  const vec3 p = ref.position, up = ref.normal;
+  const vec3 p = ref.position, up = ref.normal, mirrored = ref.mirrored;
+  const Gloss gloss = ref.gloss;
   for (std::size_t i = 0; i < kWidth; ++i) {
     const float dx = n.x[i] - p.x, dy = n.y[i] - p.y, dz = n.z[i] - p.z; // towards the light
     const float d2 = std::max(dx * dx + dy * dy + dz * dz, kLeastDistance2);
@@ -197,7 +219,15 @@ float LightTree::judge(const Node& n, const LightReference& ref, Weights& weight
     // And off the reference's normal.
     const float cos_in = cos_up >= cos_b ? 1.0f : cos_up * cos_b + sin_up * sin_b;
     const float shine = cos_off >= n.cos_e[i] ? std::max(cos_off, 0.0f) : 0.0f;
-    w[i] = n.intensity[i] * shine * std::max(cos_in, 0.0f) / std::max(d2, n.least_d2[i]);
+    float made = std::max(cos_in, 0.0f);
+    if constexpr (kGlossy) {
+      const float cos_m = (dx * mirrored.x + dy * mirrored.y + dz * mirrored.z) * inverse;
+      const float sin_m = std::sqrt(std::max(1 - cos_m * cos_m, 0.0f));
+      const float cos_near = cos_m >= cos_b ? 1.0f : cos_m * cos_b + sin_m * sin_b;
+      const float off = 1 + gloss.sharpness * (1 - cos_near);
+      made = made > 0 ? gloss.diffuse * made + gloss.peak / (off * off) : 0.0f;
+    }
+    w[i] = n.intensity[i] * shine * made / std::max(d2, n.least_d2[i]);
   }
   float sum = 0;
   for (std::size_t i = 0; i < kWidth; ++i) weights.each[i] = w[i], weights.sum[i] = sum += w[i];
@@ -207,15 +237,15 @@ float LightTree::judge(const Node& n, const LightReference& ref, Weights& weight
 float LightTree::judge_root(const LightReference& ref, Weights& weights) const {
   float sum = judge(nodes_[0], ref, weights);
   for (std::size_t i = 0; i < apart_.size(); ++i) {
-    float irradiance = apart_[i].irradiance;
+    float worth = apart_[i].irradiance[ref.also_by_chance] * mean_response(ref);
     if (is_delta_light(apart_[i].what)) { // there is one sample, and it tells all
       auto s = sample_light(apart_[i].what, ref, vec2(0));
       if (s)
-        irradiance = static_cast<float>(scale_ * static_cast<double>(luminance(s->radiance))) *
-                     std::max(glm::dot(s->direction, ref.normal), 0.0f);
+        worth = static_cast<float>(scale_ * static_cast<double>(luminance(s->radiance))) *
+                response(ref, s->direction);
     }
-    weights.each[kWidth + i] = irradiance;
-    weights.sum[kWidth + i] = sum += irradiance;
+    weights.each[kWidth + i] = worth;
+    weights.sum[kWidth + i] = sum += worth;
   }
   return sum;
 }

@@ -78,9 +78,20 @@ void PathTracer::meet_surfaces(int depth) {
     }
     if (material.diffuse_texture != nullptr) stop.textured = evaluate_bsdf(material, vertex.surface);
     stop.specular = bsdf_delta_probability(stop.bsdf(), vertex.wo_local) >= 1;
+    prepare_aiming(stop);
     stop.branches = path.split || stop.specular ? 1 : settings_.split;
     path.split |= !stop.specular;
   }
+}
+
+/// What lights need to know of a stop.
+void PathTracer::prepare_aiming(Stop& stop) const {
+  const Vertex& vertex = stop.vertex;
+  LightReference& reference = stop.vertex.reference;
+  reference.also_by_chance = settings_.light_sampling == LightSampling::mis;
+  if (!scene_.all_lights().is_choice() || std::holds_alternative<Diffuse>(stop.bsdf())) return;
+  reference.gloss = gloss_of(stop.bsdf(), vertex.wo_local);
+  reference.mirrored = vertex.frame.to_world(reflect_about_normal(vertex.wo_local));
 }
 
 /// Weight of a light met by chance, given the density (1/sr) with which aiming would have found it.

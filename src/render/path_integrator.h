@@ -81,6 +81,7 @@ private:
   void aim(int depth);
   void choose_directions(int depth);
 
+  void prepare_aiming(Stop& stop) const;
   void add_background(const Path& path, int depth);
   void add_emission(const Path& path, const Vertex& vertex, int depth);
   bool needs_aimed_pdf(const Path& path) const;

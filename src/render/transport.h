@@ -41,9 +41,10 @@ struct Vertex {
   Vertex(const RenderScene& scene, const Ray& ray, const Hit& hit)
       : surface(scene.geometry().surface(ray, hit)), material(&scene.material(surface.material)),
         wo(-ray.direction), frame(Basis::from_normal(surface.shading_normal)), wo_local(frame.to_local(wo)),
-        side(glm::dot(wo, surface.geometric_normal)), reference{surface.position,
-                                                                side > 0 ? surface.geometric_normal
-                                                                         : -surface.geometric_normal} {}
+        side(glm::dot(wo, surface.geometric_normal)) {
+    reference.position = surface.position;
+    reference.normal = side > 0 ? surface.geometric_normal : -surface.geometric_normal;
+  }
 
   /// Whether anything sensible scatters here: not where the interpolated normal looks away from the viewer.
   bool scatters() const { return wo_local.z * side > 0; }

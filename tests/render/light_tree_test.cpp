@@ -78,6 +78,11 @@ LightSelection select_all(const std::vector<Light>& lights, LightChoiceBy how = 
 
 LightReference random_reference(Random& random, const std::vector<Light>& lights) {
   LightReference ref{random.point(6), random.direction()};
+  ref.also_by_chance = random.coin();
+  if (random.coin()) {
+    ref.gloss = {random.coin() ? 0.0f : random(), random(0.1f, 1000), random(0, 1000)};
+    ref.mirrored = random.direction();
+  }
   if (random.coin()) // right beside a light, within its bounds or heap
     if (auto bounds =
             light_bounds(lights[static_cast<std::size_t>(random() * static_cast<float>(lights.size()))]))
@@ -181,6 +186,27 @@ TEST(LightTree, FewLightsThatAreSmallAreChosenByWhatTheySend) {
     EXPECT_NEAR(static_cast<double>(selection.pmf(ref, i)), sent[i] / sum, 0.01) << i;
 }
 
+TEST(LightTree, AGlossyPointAsksTheLightThatItMirrors) {
+  LightReference ref{{0, 0, 0}, {0, 1, 0}};
+  const vec3 wo = glm::normalize(vec3(-1, 1, 0)); // of the world; locally x, z, y
+  const Bsdf bsdf = Ggx{vec3(0.9f), 0.4f};
+  std::vector<Light> lights;
+  std::vector<double> sent;
+  for (float angle : {20.0f, 30.0f, 40.0f, 45.0f, 55.0f, 70.0f}) {
+    vec3 towards(std::sin(radians(angle)), std::cos(radians(angle)), 0);
+    lights.emplace_back(PointLight{9.0f * towards, vec3(1)});
+    sent.push_back(static_cast<double>(
+        luminance(bsdf_eval(bsdf, {wo.x, wo.z, wo.y}, {towards.x, towards.z, towards.y}))));
+  }
+  ref.gloss = gloss_of(bsdf, {wo.x, wo.z, wo.y});
+  ref.mirrored = {-wo.x, wo.y, wo.z};
+  LightSelection selection = select_all(lights);
+  double sum = 0;
+  for (double e : sent) sum += e;
+  for (std::uint32_t i = 0; i < lights.size(); ++i)
+    EXPECT_NEAR(static_cast<double>(selection.pmf(ref, i)), sent[i] / sum, 0.06) << i;
+}
+
 TEST(LightTree, OneLightIsCertain) {
   LightSelection selection = select_all({PointLight{{0, 1, 0}, vec3(1)}});
   auto choice = selection.choose({{0, 0, 0}, {0, -1, 0}}, 0.25f);
@@ -203,7 +229,10 @@ Document lamps() {
   SceneMaker s(8, 8, 1);
   int grey = s.diffuse(vec3(0.6f));
   s.closed_box({-3, 0, -3}, {3, 2.5f, 3}, grey);
-  s.sphere({0, 0.6f, 0}, 0.6f, grey);
+  Material metal;
+  metal.type = MaterialType::ggx;
+  metal.roughness = 0.4f;
+  s.sphere({0, 0.6f, 0}, 0.6f, s.material(metal));
   for (int i = 0; i < 40; ++i) {
     Material m;
     m.diffuse = vec3(0.2f);
