@@ -1,125 +1,25 @@
-// Writes scenes/panoramas/clear_sky.hdr: a clear sky with its sun over a plain, as a latitude-longitude map
-// (render/environment_map.h: the centre is +z, the top +y).
+// Writes scenes/panoramas/clear_sky.hdr: a clear sky with its sun over a plain (scene/clear_sky.h).
 //
 //   cmake --build --preset release --target scene_data
-//
-// The sky is that of A. J. Preetham, P. Shirley, B. Smits, "A Practical Analytic Model for Daylight",
-// SIGGRAPH 1999, appendix A.2: Perez's distribution of luminance and chromaticity for a turbidity.
 
 #include "core/math.h"
 #include "io/image_file.h"
+#include "scene/clear_sky.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include <cstdio>
 #include <numbers>
-
-namespace candela {
-namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr int kWidth = 512, kHeight = 256;
-constexpr double kTurbidity = 2.6;
-constexpr double kSunElevation = 32 * kPi / 180;
-/// Right of the centre of the image.
-constexpr double kSunAzimuth = 60 * kPi / 180;
-/// The sun's disc is 0.27 degrees wide to the rim, less than a texel; drawn wider, it sends as much light.
-constexpr double kSunRadius = 1.0 * kPi / 180;
-/// Illuminance of the sun on a surface facing it over the luminance of the zenith, sr: 90 klx and 4.3
-/// kcd/m^2.
-constexpr double kSunToZenith = 21;
-const glm::dvec3 kSunColor{1.12, 0.99, 0.76};
-const glm::dvec3 kGround{0.30, 0.26, 0.21};
-
-/// Directions are those of the latlong mapping.
-glm::dvec3 direction(double u, double v) {
-  const double phi = 2 * kPi * u, theta = kPi * v;
-  return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
-}
-
-/// Perez's five parameters of a quantity, linear in the turbidity (Preetham et al., A.2).
-struct Perez {
-  double a, b, c, d, e;
-  double operator()(double cos_theta, double gamma) const {
-    return (1 + a * std::exp(b / cos_theta)) *
-           (1 + c * std::exp(d * gamma) + e * std::cos(gamma) * std::cos(gamma));
-  }
-};
-
-/// Linear Rec. 709 of luminance 1 at the zenith.
-class Sky {
-public:
-  explicit Sky(glm::dvec3 sun) : sun_(sun) {
-    constexpr double t = kTurbidity;
-    const double s = std::acos(sun.y), s2 = s * s, s3 = s2 * s;
-    luminance_ = {0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771,
-                  -0.0670 * t + 0.3703};
-    x_ = {-0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125, -0.0641 * t - 0.8989,
-          -0.0033 * t + 0.0452};
-    y_ = {-0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537,
-          -0.0109 * t + 0.0529};
-    zenith_x_ = t * t * (0.00166 * s3 - 0.00375 * s2 + 0.00209 * s) +
-                t * (-0.02903 * s3 + 0.06377 * s2 - 0.03202 * s + 0.00394) +
-                (0.11693 * s3 - 0.21196 * s2 + 0.06052 * s + 0.25886);
-    zenith_y_ = t * t * (0.00275 * s3 - 0.00610 * s2 + 0.00317 * s) +
-                t * (-0.04214 * s3 + 0.08970 * s2 - 0.04153 * s + 0.00516) +
-                (0.15346 * s3 - 0.26756 * s2 + 0.06670 * s + 0.26688);
-  }
-
-  glm::dvec3 radiance(glm::dvec3 d) const {
-    const double cos_theta = std::max(d.y, 0.01); // Perez's formula ends at the horizon
-    const double gamma = std::acos(std::clamp(glm::dot(d, sun_), -1.0, 1.0));
-    const double zenith_gamma = std::acos(sun_.y);
-    auto relative = [&](const Perez& f) { return f(cos_theta, gamma) / f(1, zenith_gamma); };
-    const double luminance = relative(luminance_);
-    const double x = zenith_x_ * relative(x_), y = zenith_y_ * relative(y_);
-    const glm::dvec3 xyz{x / y * luminance, luminance, (1 - x - y) / y * luminance};
-    const glm::dvec3 rgb{3.2406 * xyz.x - 1.5372 * xyz.y - 0.4986 * xyz.z,
-                         -0.9689 * xyz.x + 1.8758 * xyz.y + 0.0415 * xyz.z,
-                         0.0557 * xyz.x - 0.2040 * xyz.y + 1.0570 * xyz.z};
-    return glm::max(rgb, glm::dvec3(0));
-  }
-
-private:
-  glm::dvec3 sun_;
-  Perez luminance_, x_, y_;
-  double zenith_x_, zenith_y_;
-};
-
-Image clear_sky() {
-  const double u_sun = 0.5 + kSunAzimuth / (2 * kPi), v_sun = 0.5 - kSunElevation / kPi;
-  const glm::dvec3 sun = direction(u_sun, v_sun);
-  const Sky sky(sun);
-  const double sun_solid_angle = 2 * kPi * (1 - std::cos(kSunRadius));
-  Image image;
-  image.width = kWidth;
-  image.height = kHeight;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
-      constexpr int kSubpixels = 8; // a side, so that the sun's rim is smooth
-      glm::dvec3 sum(0);
-      for (int i = 0; i < kSubpixels * kSubpixels; ++i) {
-        const glm::dvec3 d = direction((x + (i % kSubpixels + 0.5) / kSubpixels) / kWidth,
-                                       (y + (i / kSubpixels + 0.5) / kSubpixels) / kHeight);
-        if (d.y < 0)
-          sum += kGround * (0.6 + 0.4 * std::exp(8 * d.y)); // some haze towards the horizon
-        else
-          sum += sky.radiance(d);
-        if (glm::dot(d, sun) > std::cos(kSunRadius)) sum += kSunColor * (kSunToZenith / sun_solid_angle);
-      }
-      image.pixels.push_back(vec3(sum / static_cast<double>(kSubpixels * kSubpixels)));
-    }
-  return image;
-}
-
-} // namespace
-} // namespace candela
 
 int main(int argc, char** argv) {
   if (argc != 2) {
     fmt::print(stderr, "usage: make_clear_sky FILE.hdr\n");
     return 2;
   }
-  candela::write_linear_image(candela::clear_sky(), argv[1]);
+  constexpr double kDegree = std::numbers::pi / 180;
+  candela::ClearSky sky;
+  sky.sun_elevation = 32 * kDegree;
+  sky.sun_azimuth = 60 * kDegree;
+  sky.sun_radius = 1.0 * kDegree;
+  candela::write_linear_image(candela::clear_sky_panorama(sky, 512, 256, 8), argv[1]);
 }

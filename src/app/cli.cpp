@@ -7,6 +7,7 @@
 #include "app/info_command.h"
 #include "app/lab_command.h"
 #include "app/render_command.h"
+#include "app/scale_command.h"
 #include "app/settings_command.h"
 #include "app/view_command.h"
 #include "core/error.h"
@@ -137,6 +138,33 @@ int run(int argc, char** argv) {
                         "Draw into memory even if there is a display");
   interactive->add_flag("--quiet", bench_options.quiet, "Say nothing but warnings and errors");
 
+  ScaleBenchOptions scale_options;
+  auto* scale = bench->add_subcommand(
+      "scale", "Large scenes: seconds to read, build and show, memory, samples a second by one thread and by "
+               "all. It writes them (but for two that come with Candela) as files that can be opened");
+  scale->add_option("scene", scale_options.scenes, "Measure these scene files instead");
+  scale->add_option("-o,--output", scale_options.folder,
+                    "Folder to keep the scenes in; else they are removed");
+  scale->add_option("--only", scale_options.only, "Parts to run; none: all")
+      ->check(CLI::IsMember(scale_parts()))
+      ->take_all()
+      ->allow_extra_args(false);
+  scale->add_option("--size", scale_options.size, "Size of the measured pictures, WxH; else 960x540");
+  scale->add_option("--rounds", scale_options.rounds, "Passes by one thread and by all, in turn")
+      ->check(CLI::Range(1, 1000));
+  scale->add_option("--threads", scale_options.threads, "Threads of the parallel passes; 0: every core")
+      ->check(CLI::Range(0, 1024));
+  scale->add_option("--plot", scale_options.plot, "Draw samples a second over the triangles to this PNG");
+  scale->add_option("--picture", scale_options.picture,
+                    "Render the landscape to this file, without a denoiser; seconds and relMSE");
+  scale->add_option("--picture-size", scale_options.picture_size, "Its size, WxH; else 3840x2160");
+  scale->add_option("--picture-spp", scale_options.picture_spp, "Its samples a pixel; else 64")
+      ->check(CLI::Range(2, 1000000));
+  scale->add_option("--json", scale_options.json, "Write what was measured to this file");
+  scale->add_flag("--markdown", scale_options.markdown, "The tables in Markdown");
+  scale->add_flag("--short", scale_options.short_run, "Tiny scenes and pictures: does it work?");
+  scale->add_flag("--quiet", scale_options.quiet, "Say nothing but warnings and errors");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) { // --help, --version
@@ -153,6 +181,7 @@ int run(int argc, char** argv) {
   if (settings->parsed()) return run_settings(json, markdown);
   if (lab.parsed()) return lab.run();
   if (interactive->parsed()) return run_interactive_bench(bench_options);
+  if (scale->parsed()) return run_scale_bench(scale_options);
   return run_view(view_options, !no_preferences);
 }
 

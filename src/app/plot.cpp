@@ -33,6 +33,7 @@ PlotScale scale_of(const Plot& plot, const PlotAxis& axis, double PlotPoint::*co
   }
   if (!(lo <= hi)) return axis.logarithmic ? PlotScale{1, 10, true} : PlotScale{0, 1, false};
   if (axis.logarithmic) return {lo / kLogMargin, hi * kLogMargin, true};
+  if (axis.from_zero && lo >= 0 && hi > 0) return {0, hi * (1 + kLinearMargin), false};
   const double margin = hi > lo ? kLinearMargin * (hi - lo) : std::max(std::abs(lo), 1.0) * 0.5;
   return {lo - margin, hi + margin, false};
 }

@@ -29,6 +29,7 @@ struct PlotSeries {
 struct PlotAxis {
   std::string label;
   bool logarithmic = false;
+  bool from_zero = false; ///< a linear axis shows 0, too, so that heights can be compared
 };
 
 /// Points that are not finite, or not positive on a logarithmic axis, are left out.

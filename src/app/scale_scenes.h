@@ -1,0 +1,28 @@
+#pragma once
+// The scenes of `candela bench scale`, as files that any user can open.
+
+#include <cstddef>
+#include <string>
+
+namespace candela {
+
+/// Sides of the pictures, texels.
+struct ScaleDetail {
+  int ground = 4096;
+  int stone = 1024;
+  int sky = 2048; ///< width of the panorama
+};
+
+/// What the scenes of a folder share: sky.hdr, ground.jpg, stone.png and landscape.mtl.
+void write_scale_assets(const std::string& folder, const ScaleDetail& detail);
+
+/// Mountains under sun and sky, of at least so many distinct triangles: NAME.obj and NAME.json, whose path is
+/// returned.
+std::string write_landscape(const std::string& folder, const std::string& name, std::size_t triangles);
+
+/// Instances of one stone of at least so many triangles, laid out in a spiral: NAME.obj and NAME.json, whose
+/// path is returned.
+std::string write_stones(const std::string& folder, const std::string& name, int instances,
+                         std::size_t triangles);
+
+} // namespace candela
