@@ -49,7 +49,7 @@ void transform_fields(Ui& ui, ViewerState& state, Instance& instance, const Inst
   context.initial = &initial.position;
   if (ui.field("object.position", kPosition, &parts.position, context)) {
     instance.world_from_object[3] = vec4(parts.position, 1);
-    state.objects_moving = state.edited = true;
+    state.edited = true;
     if (state.typed_transform) state.typed_transform->position = parts.position;
   }
   if (has_shear(instance.world_from_object)) {
@@ -68,7 +68,7 @@ void transform_fields(Ui& ui, ViewerState& state, Instance& instance, const Inst
     if (std::abs(parts.scale[i]) < 1e-6f) parts.scale[i] = 1e-6f;
   instance.world_from_object = transform_of(parts);
   state.typed_transform = parts;
-  state.objects_moving = state.edited = true;
+  state.edited = true;
 }
 
 void material_choices(Ui& ui, ViewerState& state, Instance& instance) {

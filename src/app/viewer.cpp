@@ -367,14 +367,8 @@ void Viewer::serve_view_requests() {
 EditState Viewer::edit_state() const { return {state_.document, state_.fit_film, scene_}; }
 
 void Viewer::submit() {
-  // Fast geometry while it moves; once the hand rests it is built well, even if nothing changed since.
-  const bool resting = gesture_ != Gesture::gizmo && !ImGui::IsAnyItemActive();
-  if (resting) state_.objects_moving = false;
-  const bool build_well = built_fast_ && resting;
-  if (!state_.edited && !build_well) return;
-  built_fast_ = state_.objects_moving;
-  const std::uint64_t generation =
-      session_->submit(state_.document, built_fast_ ? BuildQuality::fast : BuildQuality::high);
+  if (!state_.edited) return;
+  const std::uint64_t generation = session_->submit(state_.document);
   if (session_->status().restarting == generation)
     meter_.submitted(generation, input_since_.value_or(began_));
   state_.edited = false;

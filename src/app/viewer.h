@@ -228,7 +228,6 @@ private:
   SelectionBox selection_box_;
   std::optional<GizmoDrag> gizmo_drag_;
   Document before_drag_;
-  bool built_fast_ = false; // while objects were being dragged
   CropWindow sent_region_;
 
   EditHistory history_;

@@ -42,9 +42,11 @@ void Viewer::select(const Selection& selection) {
   const SceneDesc& scene = state_.document.scene;
   state_.selection = checked_selection(scene, selection);
   state_.reveal_selection = true;
-  if (state_.selection.kind == Selection::Kind::object)
+  if (state_.selection.kind == Selection::Kind::object) {
     state_.selected_material =
         scene.instances[static_cast<std::size_t>(state_.selection.index)].materials.front();
+    session_->expect_moves();
+  }
   if (const auto row = light_row(scene, state_.home.scene, state_.selection)) state_.selected_light = *row;
 }
 
@@ -88,7 +90,7 @@ void Viewer::drag_gizmo(vec2 mouse) {
       if (!is_finite(vec3(placed[c]))) return;
     scene.instances[index].world_from_object = placed;
   }
-  state_.objects_moving = state_.edited = true;
+  state_.edited = true;
 }
 
 /// Takes back what the drag in hand did.

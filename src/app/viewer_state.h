@@ -70,7 +70,6 @@ struct ViewerState {
   bool reveal_selection = false; ///< the lists scroll to it once
   Tool tool = Tool::select;
   std::optional<TransformParts> typed_transform; ///< of the selected object, as its fields show it
-  bool objects_moving = false;                   ///< geometry changes from frame to frame: build it fast
   bool overlays_visible = true;                  ///< the selection's box and the lights, over the picture
   std::optional<PictureRegion> region;           ///< only this accumulates
   bool region_armed = false;                     ///< the next drag over the picture sets it

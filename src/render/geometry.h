@@ -19,14 +19,13 @@ struct Surface {
   std::uint32_t emitter = 0;  ///< number among all primitives, see Geometry::emitter_count
 };
 
-/// Triangles in world space (a mesh that is placed once, a rectangle) or in the space of an object that
-/// several instances share.
+/// Triangles in world space (small meshes, rectangles) or in the space of an object.
 struct TriangleSet {
   std::vector<vec3> positions;
   std::vector<vec3> normals; ///< parallel to positions if not empty; a zero one means flat
   std::vector<vec2> uvs;     ///< parallel to positions if not empty
   std::vector<uvec3> triangles;
-  std::vector<std::uint32_t> materials; ///< per triangle: a material, or a slot for shared objects
+  std::vector<std::uint32_t> materials; ///< per triangle: a material, or a slot for objects
 };
 
 /// A placed rectangle, as a light samples it whole rather than as its two triangles.
@@ -37,13 +36,25 @@ struct RectangleGeometry {
 
 class Geometry {
 public:
+  /// A mesh with a tree of its own: it stays as it is while its instances move.
+  struct Object {
+    std::shared_ptr<const Mesh> mesh; ///< what it was made of
+    TriangleSet set;
+    Accel accel;
+  };
+  using Objects = std::vector<std::shared_ptr<const Object>>;
+
   /// Bakes and builds. Spheres and discs that their transform would make ellipsoids are made of triangles, as
-  /// are all shapes of render/shape_mesh.h. Throws Cancelled soon after `progress` is told to end; it may be
-  /// null.
+  /// are all shapes of render/shape_mesh.h. Objects of `known` are taken over rather than built. Fast: where
+  /// it saves much, meshes become objects though they are placed once, so that moving known ones takes
+  /// milliseconds; but then rays take longer, and what they meet is rounded differently. Throws Cancelled
+  /// soon after `progress` is told to end; it may be null.
   static std::shared_ptr<const Geometry> build(const std::vector<Instance>& instances,
                                                BuildQuality quality = BuildQuality::high,
-                                               Progress* progress = nullptr);
+                                               Progress* progress = nullptr, const Objects& known = {});
 
+  /// Fast only where that made a difference.
+  BuildQuality quality() const { return quality_; }
   const Accel& accel() const { return accel_; }
   /// Fills in the rest of what is known about a hit of `ray`.
   Surface surface(const Ray& ray, const Hit& hit) const;
@@ -67,7 +78,7 @@ public:
     return sphere_emitter(spheres_.size()) + static_cast<std::uint32_t>(i);
   }
 
-  struct Placed { ///< an instance of a shared object
+  struct Placed { ///< an instance of an object
     std::uint32_t object;
     mat4 world_from_object, object_from_world;
     mat3 normal_to_world; ///< inverse transpose
@@ -75,11 +86,6 @@ public:
     std::uint32_t first_emitter;
     std::uint32_t instance;
   };
-  struct Object {
-    TriangleSet set;
-    Accel accel;
-  };
-
   const TriangleSet& world() const { return world_; }
   const std::vector<SphereGeometry>& spheres() const { return spheres_; }
   const std::vector<DiscGeometry>& discs() const { return discs_; }
@@ -87,7 +93,7 @@ public:
   const std::vector<std::uint32_t>& disc_materials() const { return disc_materials_; }
   const std::vector<RectangleGeometry>& rectangles() const { return rectangles_; }
   const std::vector<Placed>& placed() const { return placed_; }
-  const std::vector<std::unique_ptr<Object>>& objects() const { return objects_; }
+  const Objects& objects() const { return objects_; }
 
 private:
   friend class GeometryBuilder;
@@ -98,9 +104,10 @@ private:
   std::vector<DiscGeometry> discs_;
   std::vector<std::uint32_t> sphere_materials_, disc_materials_, sphere_instances_, disc_instances_;
   std::vector<RectangleGeometry> rectangles_;
-  std::vector<std::unique_ptr<Object>> objects_; ///< stable addresses: the top level refers to their accels
+  Objects objects_; ///< accel_ refers to theirs
   std::vector<Placed> placed_;
   std::uint32_t emitter_count_ = 0;
+  BuildQuality quality_ = BuildQuality::high;
   Accel accel_;
   Bounds3 finite_bounds_;
 };

@@ -38,11 +38,20 @@ Bsdf make_bsdf(const Material& m) {
 }
 
 std::shared_ptr<const RenderScene> RenderScene::build(const Document& document, const RenderScene* previous,
-                                                      BuildQuality quality, Progress* progress) {
+                                                      Progress* progress) {
+  const std::vector<Instance>& instances = document.scene.instances;
+  const bool same = previous != nullptr && previous->instances_ == instances;
+  return build(document,
+               same ? previous->geometry_ : Geometry::build(instances, BuildQuality::high, progress),
+               previous);
+}
+
+std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
+                                                      std::shared_ptr<const Geometry> geometry,
+                                                      const RenderScene* previous) {
   auto scene = std::make_shared<RenderScene>();
   const SceneDesc& desc = document.scene;
-  bool same = previous != nullptr && previous->instances_ == desc.instances;
-  scene->geometry_ = same ? previous->geometry_ : Geometry::build(desc.instances, quality, progress);
+  scene->geometry_ = std::move(geometry);
   scene->instances_ = desc.instances;
   scene->textures_ = desc.textures;
   scene->add_materials(document);
@@ -134,6 +143,8 @@ void RenderScene::add_emitters() {
       add(g.disc_emitter(i), DiscLight{g.discs()[i].center, g.discs()[i].normal, g.discs()[i].radius,
                                        aimed(m), m.two_sided_emission});
   for (const Geometry::Placed& p : g.placed()) {
+    auto shines = [&](std::uint32_t material) { return materials_[material].emissive; };
+    if (std::ranges::none_of(p.slot_materials, shines)) continue;
     const TriangleSet& set = g.objects()[p.object]->set;
     for (std::uint32_t i = 0; i < set.triangles.size(); ++i) {
       const SurfaceMaterial& m = materials_[p.slot_materials[set.materials[i]]];

@@ -26,11 +26,14 @@ class RenderScene {
 public:
   /// Reuses the geometry of `previous` where the instances are the same, and what it made of panoramas.
   /// Throws Cancelled soon after `progress` is told to end; it may be null.
-  static std::shared_ptr<const RenderScene> build(const Document& document,
-                                                  const RenderScene* previous = nullptr,
-                                                  BuildQuality quality = BuildQuality::high,
-                                                  Progress* progress = nullptr);
+  static std::shared_ptr<const RenderScene>
+  build(const Document& document, const RenderScene* previous = nullptr, Progress* progress = nullptr);
+  /// The same with geometry that was made of the document's instances.
+  static std::shared_ptr<const RenderScene>
+  build(const Document& document, std::shared_ptr<const Geometry> geometry, const RenderScene* previous);
 
+  const std::vector<Instance>& instances() const { return instances_; }
+  const std::shared_ptr<const Geometry>& shared_geometry() const { return geometry_; }
   const Geometry& geometry() const { return *geometry_; }
   const SurfaceMaterial& material(std::uint32_t index) const { return materials_[index]; }
   /// Whether any surface lets light straight through, so that rays must look.

@@ -47,7 +47,8 @@ std::unique_ptr<DenoiseJob> DenoiseThread::cancel() {
 void DenoiseThread::run() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness); // its OpenMP team inherits it
   FeatureFilm features;
-  std::uint64_t features_of = 0; // accumulation
+  std::uint64_t features_of = 0;                      // accumulation
+  BuildQuality features_quality = BuildQuality::high; // of its geometry, which changes what is rounded how
   for (;;) {
     std::unique_ptr<DenoiseJob> job;
     {
@@ -59,9 +60,11 @@ void DenoiseThread::run() {
     }
     try {
       const int width = job->color.variance.width, height = job->color.variance.height;
-      if (features_of != job->accumulation) {
+      const BuildQuality quality = job->scene->geometry().quality();
+      if (features_of != job->accumulation || features_quality != quality) {
         features = FeatureFilm(width, height);
         features_of = job->accumulation;
+        features_quality = quality;
       }
       auto image = denoise_render(std::move(job->color), job->spp, *job->scene, *job->document, features,
                                   {threads_, &stop_});

@@ -11,8 +11,10 @@
 
 namespace candela {
 
-/// libgomp keeps a team for the thread that forks it, as long as the number of threads stays.
-void RenderSession::State::meet_team() {
+/// libgomp keeps a team for the thread that forks it, as long as the number of threads stays. Its threads
+/// inherit the niceness.
+void RenderSession::State::meet_team(int niceness) {
+  if (niceness > 0) setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), niceness);
   omp_set_num_threads(options.threads > 0 ? options.threads : omp_get_num_procs()); // one team for all work
   std::vector<clockid_t> clocks;
   std::mutex adding;
@@ -27,37 +29,38 @@ void RenderSession::State::meet_team() {
 }
 
 void RenderSession::State::render_loop() {
-  // Rendering takes what the window leaves over. The OpenMP team is made by this thread and inherits its
-  // niceness.
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
-  meet_team();
-  bool active = false; // something to add samples to
+  meet_team(kRenderNiceness); // rendering takes what the window leaves over
+  bool active = false;        // something to add samples to
   while (true) {
     {
       std::unique_lock lock(mutex);
-      auto has_work = [&] { return quit || pending || region_changed || (active && may_go_on()); };
+      auto has_work = [&] {
+        return quit || pending || region_changed || may_improve() || (active && may_go_on());
+      };
       if (options.turns && (quit || !has_work())) options.turns->leave(options.side); // nobody waits for it
       changed.wait(lock, has_work);
       if (quit) return;
     }
     const SessionPhase before = status.phase;
     try {
-      take_pending();
+      if (!take_pending()) improve();
       apply_region();
       if (status.phase == SessionPhase::failed || scene == nullptr) {
         active = false;
         continue;
       }
       if (!finished() && goes_on()) step();
-      if (spp > 0 && published_view != current.settings.view) publish(true); // of the same samples
+      const bool other_view = spp > 0 && published_view != current.settings.view; // of the same samples
       active = !finished();
       const bool settled = !active || !goes_on();
+      if (settled || other_view) samples_to_show = 0;
+      if (other_view) publish(true);
       if (settled && published_samples != rays.samples) publish(true);
       feed_denoiser(settled);
       std::lock_guard lock(mutex);
       if (active)
         status.phase = may_go_on() ? SessionPhase::rendering : SessionPhase::paused;
-      else if (!pending)
+      else if (!pending && !improving())
         status.phase = SessionPhase::finished;
     } catch (const Cancelled&) { // building: a newer Document waits, or the end
       std::lock_guard lock(mutex);
@@ -106,7 +109,6 @@ bool RenderSession::State::take_pending() {
       status.progress = 0;
       status.nonfinite = 0;
       building = std::make_shared<Progress>();
-      building_quality = quality;
       if (quit) building->cancel();
     }
     status.phase = worst >= Invalidates::image ? SessionPhase::building : SessionPhase::rendering;
@@ -143,6 +145,10 @@ void RenderSession::State::apply_region() {
   if (spp > 0) spp = static_cast<int>(schedule.samples());
 }
 
+/// Seconds after the last edit of geometry: nobody waits for the better one, and each step of a drag would
+/// begin to build it in vain.
+constexpr double kHandRests = 0.3;
+
 std::size_t first_level(double pixels, double seconds_per_sample) {
   if (seconds_per_sample <= 0) return kUsualLevel;
   // Finer pictures are worth some waiting, coarser ones only the saving of a lot.
@@ -161,25 +167,40 @@ void RenderSession::State::restart() {
       state.building.reset();
     }
   } end{*this};
-  const BuildQuality wanted = building_quality; // this thread's alone to write, like `building`
-  const bool too_coarse = built == BuildQuality::fast && wanted == BuildQuality::high;
-  const RenderScene* previous = scene ? scene.get() : options.geometry_of.get();
-  auto made = RenderScene::build(current, too_coarse ? nullptr : previous, wanted, building.get());
-  if (scene == nullptr || &made->geometry() != &scene->geometry()) built = wanted;
+  const std::shared_ptr<const RenderScene> previous = scene ? scene : options.geometry_of;
+  const std::vector<Instance>& instances = current.scene.instances;
+  std::shared_ptr<const Geometry> geometry = geometry_for(instances, previous.get());
+  auto made = RenderScene::build(current, geometry, previous.get());
+  const bool is_new = scene == nullptr || scene->shared_geometry() != geometry;
   {
     std::lock_guard lock(mutex);
     scene = std::move(made);
     scene_document = std::make_shared<const Document>(current);
     status.phase = SessionPhase::rendering;
+    if (is_new) {
+      improvement.reset();
+      keep_objects(*geometry, instances);
+      stays_fast = false;
+      if (geometry->quality() == BuildQuality::fast)
+        geometry_thread.post({instances, BuildQuality::high, objects, kHandRests});
+      else
+        geometry_thread.cancel();
+    }
   }
   const FilmSettings& size = current.settings.film;
   film.resize(size.width, size.height);
+  samples_to_show = 0;
+  urgent_first = true;
+  begin_accumulation(first_level(static_cast<double>(size.width) * size.height, usual_seconds));
+}
+
+void RenderSession::State::begin_accumulation(std::size_t first_level) {
   rays = {};
   nonfinite = {};
   render_seconds = 0;
-  level = begun_level = first_level(static_cast<double>(size.width) * size.height, usual_seconds);
+  level = begun_level = first_level;
   spp = 0;
-  schedule.reset(size.width, size.height, 1); // the first pass is everywhere
+  schedule.reset(film.width(), film.height(), 1); // the first pass is everywhere
   converged = false;
   noise = std::numeric_limits<double>::infinity();
   published_samples = 0;
@@ -210,7 +231,8 @@ void RenderSession::State::step() {
   }
   const double samples = spp > 0 ? spp : static_cast<double>(level - begun_level) / std::size(kCoarseLevels);
   // Like the pass itself, the turn of the coarsest image is never given up for a newer edit.
-  const auto turn = turns->begin(side, {samples, render_seconds}, level == begun_level ? quitting : stop);
+  const bool waited_for = level == begun_level && urgent_first;
+  const auto turn = turns->begin(side, {samples, render_seconds}, waited_for ? quitting : stop);
   if (!turn.granted) return;
   struct End { // also when memory runs out
     RenderTurns& turns;
@@ -222,7 +244,7 @@ void RenderSession::State::step() {
 
 /// `most_samples` a pixel; 0: as many as are worth it.
 void RenderSession::State::render_portion(int most_samples) {
-  if (level == begun_level)
+  if (level == begun_level && urgent_first)
     urgent.run([&] { render_pass_of(most_samples); });
   else
     render_pass_of(most_samples);
@@ -234,7 +256,8 @@ void RenderSession::State::render_pass_of(int most_samples) {
   pass_options.threads = options.threads;
   SampleRange range;
   SampleSchedule::Job job;
-  const bool coarse = level < std::size(kCoarseLevels), first = level == begun_level;
+  const bool coarse = level < std::size(kCoarseLevels), first = level == begun_level,
+             waited_for = first && urgent_first;
   if (coarse) {
     range.lattice = kCoarseLevels[level];
     range.skip_lattice = first ? 0 : kCoarseLevels[level - 1];
@@ -257,20 +280,20 @@ void RenderSession::State::render_pass_of(int most_samples) {
   }
   auto start = Clock::now();
   // The coarsest image is always finished: while an edit is dragged there is a picture of every moment.
-  PassResult pass = render_pass(*scene, current, range, film, first ? kNeverStop : stop, pass_options);
+  PassResult pass = render_pass(*scene, current, range, film, waited_for ? kNeverStop : stop, pass_options);
   double taken = seconds_between(start, Clock::now());
   render_seconds += taken;
   rays += pass.rays;
   nonfinite.count += pass.nonfinite.count;
   for (const NonFiniteSample& s : pass.nonfinite.records)
     if (nonfinite.records.size() < NonFiniteLog::kMaxRecords) nonfinite.records.push_back(s);
-  if (pass.rays.samples > 0 && (first || usual_seconds == 0))
+  if (pass.rays.samples > 0 && (waited_for || usual_seconds == 0))
     usual_seconds = taken / static_cast<double>(pass.rays.samples);
   if (!pass.completed) return;
   if (coarse) {
     ++level;
     if (level == std::size(kCoarseLevels)) spp = 1, first_pass_seconds = render_seconds;
-    if (first || !stop) publish(true); // a newer edit waits
+    if (waited_for || !stop) publish(true); // a newer edit waits
   } else {
     seconds_per_sample =
         taken / (static_cast<double>(job.end - job.begin) * job.window.width * job.window.height);

@@ -21,7 +21,7 @@ double cpu_seconds(clockid_t clock) {
 RenderSession::RenderSession(SessionOptions options) : state_(std::make_unique<State>(std::move(options))) {}
 RenderSession::~RenderSession() = default;
 
-std::uint64_t RenderSession::submit(Document document, BuildQuality quality) {
+std::uint64_t RenderSession::submit(Document document) {
   State& s = *state_;
   std::uint64_t generation;
   std::unique_ptr<DenoiseJob> dropped;
@@ -31,10 +31,8 @@ std::uint64_t RenderSession::submit(Document document, BuildQuality quality) {
     turns = s.options.turns;
     Invalidates consequence =
         s.status.submitted == 0 ? Invalidates::scene : compare_documents(s.newest, document);
-    if (s.quality == BuildQuality::fast && quality == BuildQuality::high) consequence = Invalidates::scene;
-    const bool dragged = s.building_quality == BuildQuality::fast && quality == BuildQuality::fast;
-    if (s.building && !dragged && s.newest.scene.instances != document.scene.instances) s.building->cancel();
-    s.quality = quality;
+    const auto &before = s.newest.scene.instances, &now = document.scene.instances;
+    if (s.building && before != now && meshes_of(before) != meshes_of(now)) s.building->cancel();
     s.newest = document;
     s.pending = std::move(document);
     s.pending_worst = std::max(s.pending_worst, consequence);
@@ -50,6 +48,17 @@ std::uint64_t RenderSession::submit(Document document, BuildQuality quality) {
   s.changed.notify_all();
   if (turns) turns->wake();
   return generation;
+}
+
+void RenderSession::expect_moves() {
+  const std::shared_ptr<const RenderScene> newest = scene();
+  if (newest == nullptr || newest->geometry().quality() == BuildQuality::fast) return;
+  GeometryJob job{newest->instances(), BuildQuality::fast, {}, 0};
+  State& s = *state_;
+  std::lock_guard lock(s.mutex);
+  if (s.scene != newest) return; // an edit was quicker
+  job.known = s.objects;
+  s.geometry_thread.post(std::move(job));
 }
 
 void RenderSession::pause(bool paused) {

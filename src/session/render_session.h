@@ -70,12 +70,14 @@ public:
   RenderSession& operator=(const RenderSession&) = delete;
 
   /// Hands in a new Document (latest wins) and returns its generation. What it restarts is decided by
-  /// compare_documents(): a display-only change re-tones the newest frame and keeps accumulating. While
-  /// objects are being dragged their geometry may be built fast; the first submit() of high quality after
-  /// that builds it again. A Document with other instances cancels the building of the one before, unless
-  /// both are of a drag: there every picture counts, and fast building that is cancelled each time shows
-  /// none.
-  std::uint64_t submit(Document document, BuildQuality quality = BuildQuality::high);
+  /// compare_documents(): a display-only change re-tones the newest frame and keeps accumulating. A Document
+  /// with other meshes cancels the building of the one before. Where meshes are only moved, copied or
+  /// deleted, geometry is built fast, which takes milliseconds, and well beside the rendering; when that is
+  /// done the accumulation begins anew, without a coarse picture, and only what comes of it is ever called
+  /// finished.
+  std::uint64_t submit(Document document);
+  /// Objects may be moved soon: makes ready for it.
+  void expect_moves();
 
   /// While paused nothing accumulates; edits still show their first pass. The pass in flight is finished.
   void pause(bool paused);

@@ -41,7 +41,7 @@ constexpr double kPublishShare = 0.05;
 void RenderSession::State::publish(bool force) {
   auto start = Clock::now();
   double interval = std::max(publish_interval.load(), publish_cost / kPublishShare);
-  bool due = force || seconds_between(published_at, start) >= interval;
+  bool due = (force || seconds_between(published_at, start) >= interval) && rays.samples >= samples_to_show;
   std::shared_ptr<Frame> snapshot;
   if (due) {
     snapshot = frames.take();
@@ -83,6 +83,7 @@ void RenderSession::State::publish(bool force) {
 /// less, and when no more come.
 void RenderSession::State::feed_denoiser(bool settled) {
   if (!current.settings.display.denoise || current.settings.view != View::radiance || spp < 2) return;
+  if (rays.samples < samples_to_show) return;
   const bool due = rays.samples >= 2 * denoised_samples || (settled && rays.samples != denoised_samples);
   if (!due) return;
   auto job = std::make_unique<DenoiseJob>();

@@ -5,6 +5,7 @@
 #include "core/recycler.h"
 #include "render/render_pass.h"
 #include "session/denoise_thread.h"
+#include "session/geometry_thread.h"
 #include "session/render_session.h"
 #include "session/sample_schedule.h"
 #include "session/urgent_thread.h"
@@ -13,6 +14,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <pthread.h>
+#include <set>
 #include <thread>
 
 namespace candela {
@@ -23,6 +25,8 @@ inline double seconds_between(Clock::time_point a, Clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
 }
 
+inline constexpr int kRenderNiceness = 10, kBuildNiceness = 15;
+
 /// Side of the blocks of the first pass; each is a multiple of the next, so the lattices nest.
 inline constexpr int kCoarseLevels[] = {32, 16, 8, 4, 2, 1};
 inline constexpr std::size_t kUsualLevel = 2; ///< to begin with while no sample has been timed
@@ -30,9 +34,13 @@ inline constexpr std::size_t kUsualLevel = 2; ///< to begin with while no sample
 /// The level that the first pass of a film begins with, so that a picture of it is there soon.
 std::size_t first_level(double pixels, double seconds_per_sample);
 
-// Four threads: `renderer` turns Documents into Frames, the first of each by way of `urgent`, `denoiser`
-// turns snapshots of the film into DenoisedImages, `presenter` turns either into DisplayImages. The mutex
-// guards pointers and small values and is never held while one of them works.
+/// What instances are made of, shapes apart.
+std::set<const Mesh*> meshes_of(const std::vector<Instance>& instances);
+
+// Five threads: `renderer` turns Documents into Frames, the first of each by way of `urgent`,
+// `geometry_thread` builds well what that had to build fast, `denoiser` turns snapshots of the film into
+// DenoisedImages, `presenter` turns either into DisplayImages. The mutex guards pointers and small values and
+// is never held while one of them works.
 struct RenderSession::State {
   explicit State(SessionOptions o) : options(std::move(o)) {
     renderer = std::jthread([this] { render_loop(); });
@@ -62,7 +70,6 @@ struct RenderSession::State {
   Invalidates pending_worst = Invalidates::nothing; ///< over all that pending replaced
   Document newest;                                  ///< last submitted
   Clock::time_point submitted_at;                   ///< of the last one that restarts
-  BuildQuality quality = BuildQuality::high;        ///< of the newest
   bool paused = false;
   int steps_wanted = 0;
   CropWindow region;
@@ -70,7 +77,14 @@ struct RenderSession::State {
 
   // Written by the render thread.
   std::shared_ptr<Progress> building; ///< of the RenderScene in the making, if one is
-  BuildQuality building_quality = BuildQuality::high;
+
+  // Geometry that outlives edits.
+  Geometry::Objects objects; ///< of the meshes of the newest built scene, as far as they ever were needed
+  struct Improvement {
+    std::vector<Instance> instances;
+    std::shared_ptr<const Geometry> geometry; ///< null: there is no memory for it
+  };
+  std::optional<Improvement> improvement; ///< made by the geometry thread, not in use yet
 
   // Whose CPU time is told.
   std::vector<clockid_t> team_clocks; ///< of the threads that render and the OpenMP teams that they keep
@@ -98,10 +112,12 @@ struct RenderSession::State {
   std::size_t level = 0;       ///< next of kCoarseLevels
   Recycler<Frame> frames;
   SampleSchedule schedule;
-  int spp = 0;            ///< complete passes over the film, or over the region
-  bool converged = false; ///< adaptive sampling has stopped everywhere
+  int spp = 0;                       ///< complete passes over the film, or over the region
+  bool urgent_first = true;          ///< a hand waits for the first pass
+  std::uint64_t samples_to_show = 0; ///< pictures of fewer would be worse than the one that is shown
+  bool stays_fast = false;           ///< memory does not suffice for more
+  bool converged = false;            ///< adaptive sampling has stopped everywhere
   double noise = std::numeric_limits<double>::infinity(); ///< when stop.noise was asked last
-  BuildQuality built = BuildQuality::high;                ///< of the scene's geometry
   std::uint64_t published_samples = 0; ///< camera paths in the last snapshot: spp may come to the same twice
   View published_view = View::radiance;
   double first_pass_seconds = 0; ///< those of render_seconds that gave every pixel its first sample
@@ -114,13 +130,28 @@ struct RenderSession::State {
   DenoiseThread denoiser{
       options.threads, [this](std::shared_ptr<const DenoisedImage> made) { show_denoised(std::move(made)); },
       [this](std::string why) { show_denoise_error(std::move(why)); }};
-  UrgentThread urgent{[this] { meet_team(); }};
+  UrgentThread urgent{[this] { meet_team(0); }};
+  GeometryThread geometry_thread{[this] { meet_team(kBuildNiceness); },
+                                 [this](const GeometryJob& job, std::shared_ptr<const Geometry> made) {
+                                   take_in(job, std::move(made));
+                                 }};
   std::jthread renderer, presenter; // last: they are joined before the rest goes
 
-  void meet_team();
+  void meet_team(int niceness);
   void render_loop();
   bool take_pending();
   void restart();
+  void begin_accumulation(std::size_t first_level);
+  std::shared_ptr<const Geometry> geometry_for(const std::vector<Instance>& instances,
+                                               const RenderScene* previous);
+  void keep_objects(const Geometry& geometry, const std::vector<Instance>& instances);
+  void take_in(const GeometryJob& job, std::shared_ptr<const Geometry> made);
+  /// Whether there is, for now, nothing better to do with an improvement than to use it. The mutex must be
+  /// held.
+  bool may_improve() const { return improvement && !paused && spp > 0; }
+  void improve();
+  /// Better geometry is still to come.
+  bool improving() const { return scene && scene->geometry().quality() == BuildQuality::fast && !stays_fast; }
   void apply_region();
   bool finished() const;
   /// Paused, only steps are taken, and the first pass of an edit. The mutex must be held.

@@ -69,6 +69,36 @@ TEST(Geometry, ShapesLieWhereTheirTransformSays) {
   EXPECT_NEAR(p.uv.y, 0.75f, 1e-6f);
 }
 
+TEST(Geometry, AFastBuildTakesOverWhatIsKnownAndMeetsTheSame) {
+  SceneMaker s(1, 1, 1);
+  const int mat = s.diffuse(vec3(1));
+  auto large = std::make_shared<const Mesh>(sphere_mesh(120, 200, true)); // 47,600 triangles
+  auto small = std::make_shared<const Mesh>(sphere_mesh(6, 10, true));
+  s.mesh_shared(large, mat, glm::rotate(mat4(1), 0.3f, vec3(0, 1, 0)));
+  s.mesh_shared(small, mat, glm::translate(mat4(1), {5, 0, 0}));
+  std::vector<Instance>& instances = s.document.scene.instances;
+  const auto first = Geometry::build(instances, BuildQuality::fast);
+  instances[0].world_from_object = glm::translate(instances[0].world_from_object, {0, 0.25f, 0});
+  const auto moved = Geometry::build(instances, BuildQuality::fast, nullptr, first->objects());
+  const auto baked = Geometry::build(instances, BuildQuality::high, nullptr, first->objects());
+  EXPECT_EQ(moved->quality(), BuildQuality::fast);
+  EXPECT_EQ(baked->quality(), BuildQuality::high);
+  EXPECT_TRUE(baked->objects().empty()) << "an object is only for a hand that moves it";
+  ASSERT_EQ(moved->objects().size(), 1u) << "the small one is baked";
+  EXPECT_EQ(moved->objects(), first->objects());
+  for (int i = 0; i < 200; ++i) {
+    const float phi = 0.1f * static_cast<float>(i);
+    const vec3 to(i % 2 == 0 ? 0.0f : 5.0f, 0.25f, 0),
+        from = to + vec3(8 * std::sin(phi), 3, 8 * std::cos(phi));
+    const Surface a = hit_from(*moved, from, to - from), b = hit_from(*baked, from, to - from);
+    EXPECT_LT(glm::length(a.position - b.position), 1e-4f) << i;
+    EXPECT_GT(glm::dot(a.shading_normal, b.shading_normal), 0.9999f) << i;
+  }
+  instances.erase(instances.begin());
+  EXPECT_EQ(Geometry::build(instances, BuildQuality::fast)->quality(), BuildQuality::high)
+      << "where it saves nothing it is the same";
+}
+
 TEST(Geometry, EllipsoidsAndEllipsesAreTessellated) {
   SceneMaker s(1, 1, 1);
   int mat = s.diffuse(vec3(1));

@@ -8,7 +8,9 @@
 namespace candela {
 namespace {
 
+using test::headless;
 using test::kPatience;
+using test::shows;
 
 Document small_document() {
   test::SceneMaker s(16, 12, 1);
@@ -93,20 +95,72 @@ TEST(SessionBuilding, AnotherCameraLetsItGoOn) {
   EXPECT_EQ(session.status().builds_cancelled, 0u);
 }
 
-// A dragged object is shown at every place that a fast build can keep up with.
-TEST(SessionBuilding, ADragLetsItsFastBuildsGoOn) {
+// A dragged object is shown at every place, and what comes of it in the end is the headless image.
+TEST(SessionBuilding, WhatMovesIsShownSoonAndBuiltWellInTheEnd) {
   RenderSession session;
-  Document large = large_document();
-  ASSERT_TRUE(wait_for_building(session, session.submit(large, BuildQuality::fast)));
-  large.scene.instances[0].world_from_object[3].x += 0.1f;
-  session.submit(large, BuildQuality::fast);
+  Document large = large_document(150);
+  large.settings.stop.spp = 3;
+  ASSERT_TRUE(shows(session, large));
+  EXPECT_EQ(session.built().scene->geometry().quality(), BuildQuality::high);
+  session.pause(true); // nothing better comes until it goes on
+  std::shared_ptr<const Geometry::Object> object;
+  for (int step = 0; step < 3; ++step) {
+    large.scene.instances[0].world_from_object[3].x += 0.1f;
+    ASSERT_TRUE(shows(session, large));
+    const Geometry& moved = session.built().scene->geometry();
+    EXPECT_EQ(moved.quality(), BuildQuality::fast);
+    ASSERT_EQ(moved.objects().size(), 1u);
+    if (!object) object = moved.objects()[0];
+    EXPECT_EQ(moved.objects()[0], object) << "the mesh's tree is built once";
+    EXPECT_NE(session.status().phase, SessionPhase::finished);
+  }
+  session.pause(false);
   ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.built().scene->geometry().quality(), BuildQuality::high);
+  EXPECT_EQ(session.latest()->spp, 3);
+  EXPECT_TRUE(session.latest()->linear == headless(large));
   EXPECT_EQ(session.status().builds_cancelled, 0u);
-  large.scene.instances[0].world_from_object[3].x += 0.1f;
-  ASSERT_TRUE(wait_for_building(session, session.submit(large, BuildQuality::fast)));
-  session.submit(small_document()); // no part of a drag
+  EXPECT_EQ(session.status().restarts, 4u) << "building well is no edit";
+}
+
+// A camera that moves meanwhile neither loses the better geometry nor waits for it.
+TEST(SessionBuilding, EditsWhileItIsBuiltWellEndInTheHeadlessImage) {
+  RenderSession session;
+  Document large = large_document(150);
+  large.settings.stop.spp = 2;
+  ASSERT_TRUE(shows(session, large));
+  for (int step = 0; step < 40; ++step) {
+    if (step % 8 == 0) large.scene.instances[0].world_from_object[3].y += 0.02f;
+    large.scene.camera.position.x += 0.01f;
+    session.submit(large);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5 * (step % 8)));
+  }
   ASSERT_TRUE(session.wait_finished(kPatience));
-  EXPECT_EQ(session.status().builds_cancelled, 1u);
+  EXPECT_TRUE(session.latest()->linear == headless(large));
+}
+
+// Undone while the better geometry of the edit is still to come: the fast one of what was there before has to
+// be built well, too.
+TEST(SessionBuilding, AnUndoneMoveEndsInTheHeadlessImage) {
+  RenderSession session;
+  const Document large = large_document(150);
+  ASSERT_TRUE(shows(session, large));
+  Document moved = large;
+  moved.scene.instances[0].world_from_object[3].y += 0.2f;
+  session.submit(moved);
+  ASSERT_TRUE(shows(session, large));
+  EXPECT_TRUE(session.latest()->linear == headless(large));
+}
+
+TEST(SessionBuilding, WhatIsExpectedToMoveIsMadeReady) {
+  RenderSession session;
+  Document large = large_document(150);
+  ASSERT_TRUE(shows(session, large));
+  session.expect_moves();
+  session.expect_moves(); // as when the selection changes
+  large.scene.instances[0].world_from_object[3].x += 0.1f;
+  ASSERT_TRUE(shows(session, large));
+  EXPECT_TRUE(session.latest()->linear == headless(large));
 }
 
 TEST(SessionBuilding, ShareGrows) {

@@ -99,21 +99,5 @@ TEST(SessionControl, ARegionBeforeTheFirstDocumentWaitsForIt) {
   EXPECT_EQ(session.latest()->spp, 2);
 }
 
-TEST(SessionControl, FastGeometryIsBuiltAgainWellOnce) {
-  RenderSession session;
-  Document d = small_cornell(2);
-  ASSERT_TRUE(shows(session, d));
-  d.scene.instances.back().world_from_object[3].x += 20;
-  session.submit(d, BuildQuality::fast);
-  ASSERT_TRUE(session.wait_finished(kPatience));
-  EXPECT_EQ(session.status().restarts, 2u);
-  EXPECT_TRUE(session.latest()->linear == headless(d)) << "the tree's quality is no part of the image";
-  ASSERT_TRUE(shows(session, d));
-  EXPECT_EQ(session.status().restarts, 3u);
-  EXPECT_TRUE(session.latest()->linear == headless(d));
-  ASSERT_TRUE(shows(session, d));
-  EXPECT_EQ(session.status().restarts, 3u);
-}
-
 } // namespace
 } // namespace candela
