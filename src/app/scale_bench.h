@@ -37,7 +37,8 @@ ScaleResult measure_scene(const SceneOptions& scene, const std::string& name, iv
 struct ScalePicture {
   int width = 0, height = 0, spp = 0, threads = 0;
   double load_s = 0, build_s = 0, render_s = 0;
-  double relmse = 0; ///< as the film's own variance estimates it
+  double relmse = 0;          ///< of two seeds at an eighth of the size: half of what lies between them
+  double variance_relmse = 0; ///< as the film's own variance estimates it, as if samples were independent
   std::uint64_t peak_bytes = 0;
 };
 

@@ -12,8 +12,10 @@ namespace candela {
 
 namespace {
 
-constexpr double kHalfWidth = 24;     ///< of the mountains
-constexpr double kCentralScale = 0.2; ///< cells in the middle are that much smaller than the mean
+// The ground reaches from kNear to kFar along z and kHalfWidth to either side. Its cells are smallest near
+// the middle of the near edge, where the camera stands: that much smaller than the mean.
+constexpr double kNear = 3, kFar = -21, kHalfWidth = 17;
+constexpr double kNearScale = 0.25, kCentralScale = 0.3;
 constexpr std::uint32_t kBoulders = 48;
 constexpr double kBoulderShare = 0.15; ///< of the triangles
 
@@ -22,11 +24,20 @@ double smooth_step(double lo, double hi, double x) {
   return t * t * (3 - 2 * t);
 }
 
-/// From -1..1 to scene units.
-double spread(double s) { return kHalfWidth * s * (kCentralScale + (1 - kCentralScale) * s * s); }
+/// Where the ground has the uv; v grows towards -z.
+glm::dvec2 ground_point(glm::dvec2 uv) {
+  const double s = 2 * uv.x - 1, t = uv.y;
+  return {kHalfWidth * s * (kCentralScale + (1 - kCentralScale) * s * s),
+          kNear + (kFar - kNear) * t * (kNearScale + (1 - kNearScale) * t)};
+}
 
-/// Where the mountains have the uv; v grows towards -z.
-glm::dvec2 ground_point(glm::dvec2 uv) { return {spread(2 * uv.x - 1), -spread(2 * uv.y - 1)}; }
+/// The larger side of a cell there, if there are so many in a row.
+double cell_size(glm::dvec2 uv, double cells) {
+  const double s = 2 * uv.x - 1, t = uv.y;
+  return std::max(2 * kHalfWidth * (kCentralScale + 3 * (1 - kCentralScale) * s * s),
+                  (kNear - kFar) * (kNearScale + 2 * (1 - kNearScale) * t)) /
+         cells;
+}
 
 double length_squared(glm::dvec2 v) { return glm::dot(v, v); }
 
@@ -64,7 +75,7 @@ void add_ground(Mesh& mesh, std::uint32_t cells) {
     for (std::uint32_t i = 0; i < side; ++i) {
       const glm::dvec2 uv(static_cast<double>(i) / cells, static_cast<double>(j) / cells);
       const glm::dvec2 p = ground_point(uv);
-      mesh.positions.emplace_back(p.x, mountain_height(p), p.y);
+      mesh.positions.emplace_back(p.x, mountain_height(p, cell_size(uv, cells)), p.y);
       mesh.uvs.emplace_back(uv);
     }
   auto at = [&](std::uint32_t i, std::uint32_t j) {
@@ -89,8 +100,7 @@ glm::dvec2 boulder_place(std::uint32_t index) {
   glm::dvec2 p(0);
   for (std::uint32_t attempt = 0; attempt < 64; ++attempt) {
     const std::uint32_t draw = 64 * index + attempt;
-    p = ground_point(
-        {0.5 + kReach * (hashed_unit(draw, 1) - 0.5), 0.5 + kReach * (hashed_unit(draw, 2) - 0.5)});
+    p = ground_point({0.5 + kReach * (hashed_unit(draw, 1) - 0.5), 0.2 + kReach * hashed_unit(draw, 2)});
     const glm::dvec2 slope(mountain_height(p + glm::dvec2(kStep, 0)) - mountain_height(p),
                            mountain_height(p + glm::dvec2(0, kStep)) - mountain_height(p));
     if (length_squared(slope) < kSteepest * kSteepest * kStep * kStep) break;
@@ -106,7 +116,8 @@ struct Cut {
 
 class StoneShape {
 public:
-  explicit StoneShape(std::uint32_t seed) : seed_(seed) {
+  StoneShape(int cells, std::uint32_t seed)
+      : seed_(seed), octaves_(std::clamp(static_cast<int>(std::log2(cells)), 1, 8)) {
     for (std::uint32_t i = 0; i < kCuts; ++i) {
       const double z = 1 - 2 * (i + hashed_unit(i, seed)) / kCuts;
       const double phi = 2 * std::numbers::pi * hashed_unit(i + kCuts, seed);
@@ -123,27 +134,33 @@ public:
     for (const Cut& cut : cuts_)
       if (const double c = glm::dot(d, cut.normal); c > 0) sum += power16(c / cut.distance);
     const double radius = 1 / std::sqrt(std::sqrt(std::sqrt(std::sqrt(sum))));
-    return d * (radius * (1 + 0.22 * fractal_noise(d * 1.7, 8, seed_)));
+    return d * (radius * (1 + 0.22 * fractal_noise(d * 1.7, octaves_, seed_)));
   }
 
 private:
   static constexpr std::uint32_t kCuts = 16;
   std::uint32_t seed_;
+  int octaves_; ///< none so fine that cells would catch it by chance
   std::array<Cut, kCuts> cuts_;
 };
 
 } // namespace
 
-double mountain_height(glm::dvec2 p) {
+double mountain_height(glm::dvec2 p, double spacing) {
   // Octaves count for less where the coarser ones are steep: slopes are smooth, crests are rough, as erosion
   // leaves them (after I. Quilez, "Value noise derivatives", 2008).
   constexpr int kOctaves = 13;
-  glm::dvec2 q = p * 0.13 + glm::dvec2(3.7, 1.9), slope(0);
+  constexpr double kFrequency = 0.13;
+  glm::dvec2 q = p * kFrequency + glm::dvec2(3.7, 1.9), slope(0);
   double sum = 0, strength = 1;
   for (int i = 0; i < kOctaves; ++i) {
+    // Faded out about two samples a wave, below which there would be chance spikes (Nyquist).
+    const double samples_a_wave = spacing > 0 ? strength / (kFrequency * spacing) : 4;
+    const double share = smooth_step(1.5, 3, samples_a_wave);
+    if (share <= 0) break;
     const NoiseSample n = gradient_noise(q, static_cast<std::uint32_t>(i));
-    slope += n.gradient * 0.7;
-    sum += strength * n.value / (1 + glm::dot(slope, slope));
+    slope += n.gradient * (0.7 * share);
+    sum += share * strength * n.value / (1 + glm::dot(slope, slope));
     strength *= 0.5;
     q = 2.0 * glm::dvec2(0.8 * q.x + 0.6 * q.y, 0.8 * q.y - 0.6 * q.x); // turned, lest the lattices show
   }
@@ -205,7 +222,7 @@ Texture mountain_texture(int size) {
       const double flat = 1 / std::sqrt(1 + glm::dot(slope, slope)); // cosine of the angle to level ground
       const double large = fractal_noise(p * 0.8, 4, 20), small = fractal_noise(p * 9.0, 5, 30);
       const double strata = fractal_noise(glm::dvec2(h * 5 + 0.7 * large, 0.15 * p.x), 4, 40);
-      glm::dvec3 color = glm::mix(dark_rock, light_rock, smooth_step(-0.4, 0.45, strata + 0.5 * small));
+      glm::dvec3 color = glm::mix(dark_rock, light_rock, smooth_step(-0.5, 0.55, strata + 0.9 * small));
       color = glm::mix(color, scree, smooth_step(0.68, 0.82, flat + 0.12 * small));
       const glm::dvec3 meadow = glm::mix(grass, dry, smooth_step(-0.3, 0.4, large + 0.6 * small));
       color = glm::mix(color, meadow,
@@ -220,7 +237,7 @@ Texture mountain_texture(int size) {
 }
 
 Mesh stone_mesh(int cells, std::uint32_t seed) {
-  const StoneShape shape(seed);
+  const StoneShape shape(cells, seed);
   Mesh mesh;
   mesh.name = "stone";
   const auto side = static_cast<std::uint32_t>(cells) + 1;

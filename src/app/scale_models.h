@@ -7,9 +7,10 @@
 namespace candela {
 
 /// Height of the mountains over the point (x, z), scene units of about 100 m. A valley lies about the origin.
-double mountain_height(glm::dvec2 p);
+/// Without what is too fine for heights taken so far from each other.
+double mountain_height(glm::dvec2 p, double spacing = 0);
 
-/// Mountains about the origin, 48 units wide, finest in the middle, with boulders in the valley; y is up. No
+/// Mountains, 34 units wide and 24 deep, finest where the valley opens, with boulders there; y is up. No
 /// two triangles are the same; normals and uvs throughout; slots "ground" and "boulder". At least `triangles`
 /// (>= 1000) of them, and hardly more.
 Mesh mountain_mesh(std::size_t triangles);

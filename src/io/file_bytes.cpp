@@ -21,9 +21,8 @@ struct Descriptor {
   }
 };
 
-} // namespace
-
-Bytes read_file_bytes(const std::string& path, const char* element, std::size_t max_bytes) {
+template <class Container>
+Container read_whole(const std::string& path, const char* element, std::size_t max_bytes) {
   Location where{path};
   auto failed = [&](const char* what) {
     return input_error(where, element, fmt::format("{}: {}", what, std::strerror(errno)),
@@ -40,7 +39,8 @@ Bytes read_file_bytes(const std::string& path, const char* element, std::size_t 
   if (size > max_bytes)
     throw limit_error(where, element, fmt::format("{} bytes are more than the {} allowed", size, max_bytes),
                       "use a smaller file");
-  Bytes bytes(size);
+  Container bytes;
+  bytes.resize(size);
   std::size_t done = 0;
   while (done < bytes.size()) {
     ssize_t got = ::read(file.value, bytes.data() + done, bytes.size() - done);
@@ -51,6 +51,16 @@ Bytes read_file_bytes(const std::string& path, const char* element, std::size_t 
   }
   bytes.resize(done);
   return bytes;
+}
+
+} // namespace
+
+Bytes read_file_bytes(const std::string& path, const char* element, std::size_t max_bytes) {
+  return read_whole<Bytes>(path, element, max_bytes);
+}
+
+std::string read_file_characters(const std::string& path, const char* element, std::size_t max_bytes) {
+  return read_whole<std::string>(path, element, max_bytes);
 }
 
 } // namespace candela

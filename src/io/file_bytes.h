@@ -16,5 +16,7 @@ using ByteView = std::span<const std::uint8_t>;
 /// what the file was to be ("image", "mesh"). Throws input_error if it cannot be opened or read and
 /// limit_error above max_bytes, before anything is allocated.
 Bytes read_file_bytes(const std::string& path, const char* element, std::size_t max_bytes = 0x7fffffff);
+/// The same as characters: there is no second copy of a large text.
+std::string read_file_characters(const std::string& path, const char* element, std::size_t max_bytes);
 
 } // namespace candela

@@ -5,9 +5,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace candela {
 
 namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 std::string shortened(std::string_view word) { return std::string(word.substr(0, 40)); }
 
@@ -125,7 +129,7 @@ void ObjLines::check_index(Kind kind, std::string_view digits, std::string_view 
   std::string_view magnitude = digits;
   if (!magnitude.empty() && (magnitude.front() == '-' || magnitude.front() == '+'))
     magnitude.remove_prefix(1);
-  if (magnitude.empty() || magnitude.find_first_not_of("0123456789") != std::string_view::npos)
+  if (magnitude.empty() || !std::ranges::all_of(magnitude, is_digit))
     throw input_error(at(word), "f", fmt::format("'{}' is no corner", shortened(word)),
                       "write v, v/vt, v//vn or v/vt/vn with integers");
   constexpr std::size_t kMostDigits = 9; // what fits an int for certain; the file's cap holds fewer vertices

@@ -10,7 +10,6 @@
 
 #include <filesystem>
 #include <istream>
-#include <unordered_map>
 
 namespace candela {
 
@@ -26,15 +25,44 @@ struct Corner {
   bool operator==(const Corner&) const = default;
 };
 
-struct CornerHash {
-  std::size_t operator()(const Corner& c) const {
-    auto bits = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
-    return hash_combine(hash64(bits(c.v) << 32 | bits(c.vt)), bits(c.vn));
+/// Numbers corners in the order in which they come, equal ones alike. Open addressing with linear probing: a
+/// large model has millions of corners, and a node for each would take more memory than the mesh.
+class CornerNumbers {
+public:
+  /// The number, and whether it is a new one.
+  std::pair<std::uint32_t, bool> number(const Corner& c) {
+    if (2 * (corners_.size() + 1) > slots_.size()) grow();
+    std::size_t at = slot_of(c);
+    for (; slots_[at] != kFree; at = (at + 1) & (slots_.size() - 1))
+      if (corners_[slots_[at]] == c) return {slots_[at], false};
+    slots_[at] = static_cast<std::uint32_t>(corners_.size());
+    corners_.push_back(c);
+    return {slots_[at], true};
   }
+
+private:
+  static constexpr std::uint32_t kFree = 0xffffffffu;
+
+  std::size_t slot_of(const Corner& c) const {
+    auto bits = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
+    return hash_combine(hash64(bits(c.v) << 32 | bits(c.vt)), bits(c.vn)) & (slots_.size() - 1);
+  }
+
+  void grow() {
+    slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), kFree);
+    for (std::uint32_t i = 0; i < corners_.size(); ++i) {
+      std::size_t at = slot_of(corners_[i]);
+      while (slots_[at] != kFree) at = (at + 1) & (slots_.size() - 1);
+      slots_[at] = i;
+    }
+  }
+
+  std::vector<Corner> corners_;
+  std::vector<std::uint32_t> slots_; ///< a power of two of them, at most half of them taken
 };
 
 struct Face {
-  std::size_t first; ///< in the array of corners
+  std::uint32_t first; ///< in the array of corners, which kMaxObjBytes keeps in range
   int count;
   std::uint32_t slot;
   int line;
@@ -87,7 +115,8 @@ tinyobj::callback_t callbacks() {
   };
   out.index_cb = [](void* p, tinyobj::index_t* indices, int count) {
     auto& c = *static_cast<ObjContents*>(p);
-    c.faces.push_back({c.corners.size(), count, c.current_slot(), c.lines->line()});
+    c.faces.push_back(
+        {static_cast<std::uint32_t>(c.corners.size()), count, c.current_slot(), c.lines->line()});
     for (const tinyobj::index_t& i : std::span(indices, static_cast<std::size_t>(count)))
       c.corners.push_back({resolved(i.vertex_index, c.positions.size()),
                            resolved(i.texcoord_index, c.uvs.size()),
@@ -103,7 +132,6 @@ public:
                ProgressPart& progress)
       : c_(contents), file_(file), warnings_(warnings), progress_(progress) {
     for (const Corner& corner : c_.corners) has_normals_ |= corner.vn >= 0, has_uvs_ |= corner.vt >= 0;
-    vertices_.reserve(c_.positions.size());
   }
 
   Mesh run() {
@@ -141,7 +169,7 @@ private:
   }
 
   std::uint32_t vertex(const Corner& c) {
-    auto [known, is_new] = vertices_.try_emplace(c, static_cast<std::uint32_t>(mesh_.positions.size()));
+    auto [index, is_new] = vertices_.number(c);
     if (is_new) {
       mesh_.positions.push_back(position(c));
       if (has_normals_) {
@@ -151,7 +179,7 @@ private:
       }
       if (has_uvs_) mesh_.uvs.push_back(c.vt >= 0 ? c_.uvs[static_cast<std::size_t>(c.vt)] : vec2(0));
     }
-    return known->second;
+    return index;
   }
 
   const ObjContents& c_;
@@ -159,7 +187,7 @@ private:
   WarningList& warnings_;
   ProgressPart& progress_;
   bool has_normals_ = false, has_uvs_ = false;
-  std::unordered_map<Corner, std::uint32_t, CornerHash> vertices_;
+  CornerNumbers vertices_;
   Mesh mesh_;
 };
 
@@ -202,6 +230,7 @@ ObjModel read_obj(const FoundFile& file, const PathPolicy& policy, MtlDialect di
   stream.exceptions(std::ios::badbit); // lets the errors of ObjLines through
   tinyobj::LoadObjWithCallback(stream, callbacks(), &contents, nullptr, nullptr, nullptr);
   lines.check_forward_indices();
+  std::string().swap(text); // the largest of all that is in memory here
 
   ObjModel model;
   model.mesh = MeshAssembly(contents, file.shown, warnings, progress).run();

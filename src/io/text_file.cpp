@@ -8,13 +8,12 @@
 namespace candela {
 
 std::string read_text_file(const std::string& path, const char* element, std::size_t max_bytes) {
-  Bytes bytes = read_file_bytes(path, element, max_bytes);
-  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  if (auto nul = text.find('\0'); nul != std::string_view::npos)
+  std::string text = read_file_characters(path, element, max_bytes);
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  if (auto nul = text.find('\0'); nul != std::string::npos)
     throw input_error(locate(path, text, nul), element, "a NUL byte: this is no text file",
                       "give a text file in UTF-8");
-  return std::string(text);
+  return text;
 }
 
 Location locate(const std::string& file, std::string_view text, std::size_t offset) {

@@ -135,7 +135,7 @@ TEST(ScaleReport, GoesThroughJsonUnchanged) {
   EXPECT_EQ(back.name, r.name);
   EXPECT_EQ(back.peak_bytes, r.peak_bytes);
   EXPECT_EQ(back.samples_per_s, r.samples_per_s);
-  ScalePicture p{3840, 2160, 64, 2, 1, 0.5, 240, 1.25e-3, 12};
+  ScalePicture p{3840, 2160, 64, 2, 1, 0.5, 240, 1.25e-3, 4e-3, 12};
   EXPECT_EQ(to_json(scale_picture(to_json(p))), to_json(p));
 }
 
@@ -143,7 +143,7 @@ TEST(ScaleReport, TablesPlotAndJson) {
   ScaleReport report;
   report.scenes = {result("landscape", 1'002'528, 2.5e6)};
   report.landscapes = {result("landscape_1000", 1'026, 4e6), result("landscape", 1'002'528, 2.5e6)};
-  report.picture = ScalePicture{3840, 2160, 64, 2, 1, 0.5, 240, 1.25e-3, std::uint64_t{900} << 20};
+  report.picture = ScalePicture{3840, 2160, 64, 2, 1, 0.5, 240, 1.25e-3, 4e-3, std::uint64_t{900} << 20};
   const std::string text = scale_tables(report, TableFormat::text);
   for (const char* part :
        {"1,002,528", "1.25", "0.500", "2.00", "2.50", "3840x2160", "relMSE 0.0013", "900 MiB"})
@@ -191,6 +191,7 @@ TEST_F(ScaleCommand, KeepsItsScenesAndWritesWhatItMeasured) {
   EXPECT_EQ(json["landscapes"].size(), 2u);
   EXPECT_EQ(json["stones"].size(), 2u);
   EXPECT_GT(json["picture"]["relmse"], 0);
+  EXPECT_LT(json["picture"]["relmse"], 3 * json["picture"]["variance_relmse"].get<double>());
   EXPECT_EQ(read_image(scratch / "picture.png").width, 96);
   EXPECT_GT(read_image(scratch / "plot.png").width, 500);
   EXPECT_TRUE(read_scene(scratch / "kept/landscape.json").warnings.empty());
