@@ -16,7 +16,7 @@ struct Surface {
   vec3 shading_normal{0, 0, 1};   ///< unit, on the side of geometric_normal
   vec2 uv{0};
   std::uint32_t material = 0; ///< index into SceneDesc::materials
-  std::uint32_t emitter = 0;  ///< number among all primitives, see Geometry::emitter_count
+  std::uint64_t emitter = 0;  ///< number among all primitives, see Geometry::emitter_count
 };
 
 /// Triangles in world space (small meshes, rectangles) or in the space of an object.
@@ -69,21 +69,17 @@ public:
   std::size_t memory_bytes() const;
 
   /// Every primitive that could emit has a number: world triangles, then spheres, discs, then triangles of
-  /// instances.
-  std::uint32_t emitter_count() const { return emitter_count_; }
-  std::uint32_t sphere_emitter(std::size_t i) const {
-    return static_cast<std::uint32_t>(world_.triangles.size() + i);
-  }
-  std::uint32_t disc_emitter(std::size_t i) const {
-    return sphere_emitter(spheres_.size()) + static_cast<std::uint32_t>(i);
-  }
+  /// instances, which may be more than 2^32.
+  std::uint64_t emitter_count() const { return emitter_count_; }
+  std::uint64_t sphere_emitter(std::size_t i) const { return world_.triangles.size() + i; }
+  std::uint64_t disc_emitter(std::size_t i) const { return sphere_emitter(spheres_.size()) + i; }
 
   struct Placed { ///< an instance of an object
     std::uint32_t object;
     mat4 world_from_object, object_from_world;
     mat3 normal_to_world; ///< inverse transpose
     std::vector<std::uint32_t> slot_materials;
-    std::uint32_t first_emitter;
+    std::uint64_t first_emitter;
     std::uint32_t instance;
   };
   const TriangleSet& world() const { return world_; }
@@ -106,7 +102,7 @@ private:
   std::vector<RectangleGeometry> rectangles_;
   Objects objects_; ///< accel_ refers to theirs
   std::vector<Placed> placed_;
-  std::uint32_t emitter_count_ = 0;
+  std::uint64_t emitter_count_ = 0;
   BuildQuality quality_ = BuildQuality::high;
   Accel accel_;
   Bounds3 finite_bounds_;

@@ -96,7 +96,7 @@ public:
     for (auto& p : g_->placed_) {
       const Geometry::Object& object = *g_->objects_[p.object];
       p.first_emitter = g_->emitter_count_;
-      g_->emitter_count_ += static_cast<std::uint32_t>(object.set.triangles.size());
+      g_->emitter_count_ += object.set.triangles.size();
       placed.push_back({&object.accel, p.world_from_object});
     }
     g_->accel_ = Accel::build({g_->world_.positions, g_->world_.triangles, g_->spheres_, g_->discs_, placed},

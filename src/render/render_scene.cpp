@@ -102,12 +102,12 @@ void RenderScene::add_emitters() {
   for (const SurfaceMaterial& m : materials_) any |= m.emissive;
   if (!any) return;
   const Geometry& g = *geometry_;
-  light_of_emitter_.assign(g.emitter_count(), kNoLight);
-  auto add = [&](std::uint32_t emitter, Light light) {
-    light_of_emitter_[emitter] = static_cast<std::uint32_t>(lights_.size());
+  light_of_emitter_.reset(g.emitter_count());
+  auto add = [&](std::uint64_t emitter, Light light) {
+    light_of_emitter_.set(emitter, static_cast<std::uint32_t>(lights_.size()));
     lights_.push_back(light);
   };
-  auto add_triangle = [&](std::uint32_t emitter, vec3 p0, vec3 p1, vec3 p2, vec3 outside,
+  auto add_triangle = [&](std::uint64_t emitter, vec3 p0, vec3 p1, vec3 p2, vec3 outside,
                           const SurfaceMaterial& m) {
     vec3 c = glm::cross(p1 - p0, p2 - p0);
     float double_area = glm::length(c);
@@ -124,7 +124,7 @@ void RenderScene::add_emitters() {
     if (!m.emissive || std::abs(glm::dot(r.edge_x, r.edge_y)) > 1e-6f * lengths) continue;
     if (!(length_squared(glm::cross(r.edge_x, r.edge_y)) > 0)) continue;
     add(r.first_triangle, RectangleLight(r.corner, r.edge_x, r.edge_y, aimed(m), m.two_sided_emission));
-    light_of_emitter_[r.first_triangle + 1] = light_of_emitter_[r.first_triangle];
+    light_of_emitter_.set(r.first_triangle + 1, light_of_emitter_[r.first_triangle]);
   }
   const TriangleSet& world = g.world();
   for (std::uint32_t i = 0; i < world.triangles.size(); ++i) {
@@ -204,7 +204,7 @@ void RenderScene::add_lights(const std::vector<LightDesc>& lights, const RenderS
 
 std::size_t RenderScene::memory_bytes() const {
   std::size_t bytes = geometry_->memory_bytes() + materials_.size() * sizeof(SurfaceMaterial) +
-                      lights_.size() * sizeof(Light) + light_of_emitter_.size() * sizeof(std::uint32_t);
+                      lights_.size() * sizeof(Light) + light_of_emitter_.memory_bytes();
   bytes += all_lights_.memory_bytes() + delta_lights_.memory_bytes();
   for (const auto& texture : textures_) bytes += texture->srgb.size();
   for (const auto& map : environment_maps_) bytes += map->memory_bytes();

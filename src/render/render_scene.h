@@ -2,6 +2,7 @@
 // A Document made ready to render; const while it is.
 
 #include "bsdf/bsdf.h"
+#include "render/emitter_lights.h"
 #include "render/geometry.h"
 #include "render/light_selection.h"
 #include "scene/document.h"
@@ -19,8 +20,6 @@ struct SurfaceMaterial {
   bool two_sided_emission = false;
   bool absorbing = false;
 };
-
-inline constexpr std::uint32_t kNoLight = 0xffffffffu;
 
 class RenderScene {
 public:
@@ -41,9 +40,7 @@ public:
 
   const std::vector<Light>& lights() const { return lights_; }
   /// The light that a primitive is (part of), or kNoLight.
-  std::uint32_t light_of(std::uint32_t emitter) const {
-    return light_of_emitter_.empty() ? kNoLight : light_of_emitter_[emitter];
-  }
+  std::uint32_t light_of(std::uint64_t emitter) const { return light_of_emitter_[emitter]; }
   const std::vector<std::uint32_t>& infinite_lights() const { return infinite_lights_; }
 
   /// Choice of a light as path.light_choice has it: among all, or among those that no direction can hit by
@@ -59,7 +56,7 @@ private:
   std::vector<std::shared_ptr<const Texture>> textures_;
   std::vector<SurfaceMaterial> materials_;
   std::vector<Light> lights_;
-  std::vector<std::uint32_t> light_of_emitter_; ///< empty where no surface shines
+  EmitterLights light_of_emitter_;
   std::vector<std::uint32_t> infinite_lights_;
   std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
   LightSelection all_lights_, delta_lights_;
