@@ -22,7 +22,8 @@ ObjLines::ObjLines(std::string file, std::string& text, WarningList& warnings, P
     : file_(std::move(file)), text_(text), warnings_(warnings), progress_(progress),
       share_of_byte_(share / static_cast<double>(text.size() + 1)) {
   if (text_.empty() || text_.back() != '\n') text_ += '\n';
-  if (text_.find_first_of("\r\\") == std::string::npos) return;
+  // Two searches for one character each are many times quicker than one for either.
+  if (text_.find('\r') == std::string::npos && text_.find('\\') == std::string::npos) return;
   for (std::size_t i = 0; i < text_.size(); ++i) {
     if (text_[i] == '\r') text_[i] = i + 1 < text_.size() && text_[i + 1] == '\n' ? ' ' : '\n';
     if (text_[i] != '\\') continue;

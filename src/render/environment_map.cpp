@@ -309,17 +309,21 @@ EnvironmentMap::Density EnvironmentMap::make_density(float dark) const {
   // Between centres the weight is a ramp: its mean over a texel has the weights 1/8, 3/4, 1/8 in either
   // direction.
   constexpr float kShare[3] = {0.125f, 0.75f, 0.125f};
+  const bool same_in_row = mapping_ == EnvironmentMapping::latlong; // and two sines a texel take longest
   for (int face = 0; face < faces_; ++face)
-    for (int y = 0; y < height_; ++y)
+    for (int y = 0; y < height_; ++y) {
+      double solid_angle = texel_solid_angle(0, y);
       for (int x = 0; x < width_; ++x) {
+        if (!same_in_row) solid_angle = texel_solid_angle(x, y);
         float mean = 0;
         for (int j = 0; j < 3; ++j)
           for (int i = 0; i < 3; ++i)
             mean += kShare[i] * kShare[j] * weight(texel(face, x + i - 1, y + j - 1), dark);
-        double sent = static_cast<double>(mean) * texel_solid_angle(x, y);
+        double sent = static_cast<double>(mean) * solid_angle;
         total += sent;
         weights.push_back(static_cast<float>(sent));
       }
+    }
   made.total = static_cast<float>(total);
   made.texels = WeightedGrid(weights, static_cast<std::size_t>(width_));
   if (!(total > 0)) return made;
