@@ -45,7 +45,7 @@ constexpr const char* kStonesHead = R"({{
   "candela": 1,
   "description": "{0} stones in a spiral: instances of one mesh, each turned and scaled in its own way. {0} copies would fill the memory of a small machine; the mesh is there once. Written by `candela bench scale`.",
 
-  "camera": {{"position": [0, {1:.3f}, {2:.3f}], "target": [0, 0, {3:.3f}], "vertical_fov": 34}},
+  "camera": {{"position": [0, {1:.3f}, {2:.3f}], "target": [0, -1, {3:.3f}], "vertical_fov": 34}},
 
   "materials": [
     {{"name": "sand", "diffuse": [0.44, 0.36, 0.26]}},
@@ -106,7 +106,7 @@ std::string write_stones(const std::string& folder, const std::string& name, int
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0)), spacing = 1.25;
   const double radius = spacing * std::sqrt(instances + 0.5);
   std::string text =
-      fmt::format(kStonesHead, instances, 2 + 0.75 * radius, 3 + 1.55 * radius, 0.12 * radius, name);
+      fmt::format(kStonesHead, instances, 2 + 0.3 * radius, 3 + 1.04 * radius, 0.2 * radius, name);
   for (int i = 0; i < instances; ++i) {
     const auto index = static_cast<std::uint32_t>(i);
     const double r = spacing * std::sqrt(i + 0.5), phi = golden_angle * i;
