@@ -30,6 +30,9 @@ constexpr int kFramesToSettle = 3;
 constexpr double kPictureInterval = 1 / 30.0;
 constexpr double kInputInterval = 1 / 60.0;
 constexpr double kHandInterval = 1 / 240.0;
+/// A picture that a hand waits for is drawn as soon as it is there; this much leaves the renderer time for the
+/// next one. A flight's picture came after 25 ms with kInputInterval, of which it waited 6 for that.
+constexpr double kAwaitedInterval = 1 / 100.0;
 /// While a picture is awaited, drawing the old one would only delay it.
 constexpr double kWaitingInterval = 1 / 15.0;
 /// Of the wall time, to draw a picture that only becomes less noisy.
@@ -223,7 +226,7 @@ bool Viewer::awaited_picture_is_there() const {
 double Viewer::next_frame() const {
   if (!wants_redraw()) return now_ + idle_seconds();
   double due = now_ + refining_interval();
-  if (awaited_picture_is_there()) due = drawn_at_ + kInputInterval; // perhaps at once
+  if (awaited_picture_is_there()) due = drawn_at_ + kAwaitedInterval; // perhaps at once
   if (has_pending_events() || fly_command().any()) {
     // While the hand moves the camera a frame without a new picture only hands in, and costs next to nothing.
     const bool only_hands_in = gesture_ != Gesture::none && !awaited_picture_is_there();
