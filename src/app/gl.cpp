@@ -95,9 +95,9 @@ Gl load_gl(GlGetter get) {
   return gl;
 }
 
-GLuint build_program(const Gl& gl, const char* name) {
-  const GLuint vertex = compile(gl, GL_VERTEX_SHADER, fmt::format("shaders/{}.vert", name));
-  const GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, fmt::format("shaders/{}.frag", name));
+GLuint build_program(const Gl& gl, const char* vertex_name, const char* fragment_name) {
+  const GLuint vertex = compile(gl, GL_VERTEX_SHADER, fmt::format("shaders/{}.vert", vertex_name));
+  const GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, fmt::format("shaders/{}.frag", fragment_name));
   const GLuint program = gl.CreateProgram();
   gl.AttachShader(program, vertex);
   gl.AttachShader(program, fragment);
@@ -111,8 +111,8 @@ GLuint build_program(const Gl& gl, const char* name) {
   GLsizei length = 0;
   gl.GetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
   gl.DeleteProgram(program);
-  throw Error(ExitCode::display,
-              fmt::format("shaders/{}: link: {}", name, log.substr(0, static_cast<std::size_t>(length))));
+  throw Error(ExitCode::display, fmt::format("shaders/{}: link: {}", fragment_name,
+                                             log.substr(0, static_cast<std::size_t>(length))));
 }
 
 } // namespace candela

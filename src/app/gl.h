@@ -66,8 +66,8 @@ struct Gl {
 /// is missing.
 Gl load_gl(GlGetter get);
 
-/// Builds the program of shaders/<name>.vert and shaders/<name>.frag. An Error with ExitCode::display holds
-/// the compiler's log.
-GLuint build_program(const Gl& gl, const char* name);
+/// Builds the program of shaders/<vertex>.vert and shaders/<fragment>.frag. An Error with ExitCode::display
+/// holds the compiler's log.
+GLuint build_program(const Gl& gl, const char* vertex, const char* fragment);
 
 } // namespace candela

@@ -19,7 +19,7 @@ ImTextureID texture_id(GLuint texture) {
 } // namespace
 
 ImguiDraw::ImguiDraw(const Gl& gl) : gl_(gl) {
-  program_ = build_program(gl_, "ui");
+  program_ = build_program(gl_, "ui", "ui");
   framebuffer_size_ = gl_.GetUniformLocation(program_, "framebuffer_size");
   gl_.GenVertexArrays(1, &vertex_array_);
   gl_.GenBuffers(1, &vertices_);

@@ -72,7 +72,7 @@ void tool_bar(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
   if (ImGui::Begin("##tools", nullptr,
                    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                       ImGuiWindowFlags_NoBringToFrontOnFocus)) {
+                       ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoBackground)) {
     ButtonRow row(ui, ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize, 4);
     if (row.button("undo", "Undo", step_tip("undo", state.undo_name, "Ctrl+Z"), !state.undo_name.empty()))
       state.undo_requested = true;

@@ -57,14 +57,14 @@ void apply_style(float scale) {
   const ImVec4 accent(0.85f, 0.62f, 0.30f, 1); // candle light; used for marks only, never for areas
   colors[ImGuiCol_Text] = grey(0.87f);
   colors[ImGuiCol_TextDisabled] = grey(0.56f);
-  colors[ImGuiCol_WindowBg] = grey(0.145f);
+  colors[ImGuiCol_WindowBg] = grey(kPanelGrey);
   colors[ImGuiCol_ChildBg] = grey(0, 0);
   colors[ImGuiCol_PopupBg] = grey(0.17f, 0.99f);
   colors[ImGuiCol_Border] = grey(0.30f);
   colors[ImGuiCol_FrameBg] = grey(0.21f);
   colors[ImGuiCol_FrameBgHovered] = grey(0.26f);
   colors[ImGuiCol_FrameBgActive] = grey(0.29f);
-  colors[ImGuiCol_ScrollbarBg] = grey(0.145f);
+  colors[ImGuiCol_ScrollbarBg] = grey(kPanelGrey);
   colors[ImGuiCol_ScrollbarGrab] = grey(0.30f);
   colors[ImGuiCol_ScrollbarGrabHovered] = grey(0.38f);
   colors[ImGuiCol_ScrollbarGrabActive] = grey(0.45f);

@@ -8,6 +8,7 @@ namespace candela {
 
 /// Grey of the empty window, sRGB; neutral, because a coloured frame lies about colours.
 inline constexpr float kBackgroundGrey = 0.11f;
+inline constexpr float kPanelGrey = 0.145f; ///< the ground of panels
 
 struct UiFonts {
   ImFont* regular = nullptr;

@@ -171,14 +171,27 @@ private:
   void draw_comparison();
   bool comparison_wants_redraw() const;
 
-  // viewer.cpp
+  // viewer_layout.cpp
   PixelRect single_picture_rect() const;
   void update_scale();
+  bool shows_panels() const;
+  /// What the panels leave of the window: they are to the right and below.
+  PixelRect free_region() const;
+  void draw_ui();
+  void clip_overlays() const;
+  void draw_window();
+  void scissor(const PixelRect& rect) const;
+  void clear(float grey) const;
+
+  // viewer_pace.cpp
+  static constexpr double kHintSeconds = 10;
   bool awaited_picture_is_there() const;
+  bool puts_off_drawing(bool restarted);
   void read_meter();
   /// Seconds between pictures that only have more samples.
   double refining_interval() const;
-  void draw_ui();
+
+  // viewer.cpp
   void fit_film();
   void serve_requests();
   void serve_view_requests();
@@ -187,9 +200,6 @@ private:
   void submit();
   EditState edit_state() const;
   void notify(std::string text);
-  bool shows_panels() const;
-  /// What the panels leave of the window.
-  PixelRect free_region() const;
 
   const Gl& gl_;
   ViewerOptions options_;

@@ -111,18 +111,15 @@ bool Viewer::use_mouse_on_comparison() {
 
 void Viewer::draw_comparison() {
   const ComparePanes panes = compare_panes();
-  gl_.Enable(GL_SCISSOR_TEST);
   for (int i = 0; i < 2; ++i) {
     const ComparePanes::Pane& pane = panes.sides[static_cast<std::size_t>(i)];
     if (!pane.shown || pane.clip.width <= 0 || pane.clip.height <= 0) continue;
-    gl_.Scissor(pane.clip.x, framebuffer_.y - pane.clip.y - pane.clip.height, pane.clip.width,
-                pane.clip.height);
+    scissor(pane.clip);
     Viewport& viewport = panes.difference             ? difference_viewport_
                          : i == state_.compare.edited ? viewport_
                                                       : other_viewport_;
     if (!panes.difference || compare_.difference()) viewport.draw(pane.picture, framebuffer_);
   }
-  gl_.Disable(GL_SCISSOR_TEST);
 }
 
 bool Viewer::comparison_wants_redraw() const {

@@ -33,8 +33,8 @@ ivec2 fitted_film(ivec2 window, float aspect) {
 }
 
 Viewport::Viewport(const Gl& gl) : gl_(gl) {
-  program_ = build_program(gl_, "picture");
-  rectangle_ = gl_.GetUniformLocation(program_, "rectangle");
+  filtered_ = make_program("picture_filtered");
+  unfiltered_ = make_program("picture");
   gl_.GenVertexArrays(1, &vertex_array_); // the core profile never draws without one
   gl_.GenTextures(1, &texture_);
   gl_.GetIntegerv(GL_MAX_TEXTURE_SIZE, &max_size_);
@@ -43,7 +43,14 @@ Viewport::Viewport(const Gl& gl) : gl_(gl) {
 Viewport::~Viewport() {
   gl_.DeleteTextures(1, &texture_);
   gl_.DeleteVertexArrays(1, &vertex_array_);
-  gl_.DeleteProgram(program_);
+  for (const Program& program : {filtered_, unfiltered_}) gl_.DeleteProgram(program.id);
+}
+
+Viewport::Program Viewport::make_program(const char* fragment_shader) const {
+  Program program;
+  program.id = build_program(gl_, "picture", fragment_shader);
+  program.rectangle = gl_.GetUniformLocation(program.id, "rectangle");
+  return program;
 }
 
 void Viewport::show(std::shared_ptr<const DisplayImage> image) {
@@ -91,9 +98,10 @@ void Viewport::draw(const PixelRect& where, ivec2 framebuffer_size) {
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  gl_.UseProgram(program_);
+  const Program& program = shrinks ? filtered_ : unfiltered_;
+  gl_.UseProgram(program.id);
   const vec2 pixel = 2.0f / vec2(framebuffer_size);
-  gl_.Uniform4f(rectangle_, static_cast<float>(where.x) * pixel.x - 1,
+  gl_.Uniform4f(program.rectangle, static_cast<float>(where.x) * pixel.x - 1,
                 1 - static_cast<float>(where.y + where.height) * pixel.y,
                 static_cast<float>(where.width) * pixel.x, static_cast<float>(where.height) * pixel.y);
   gl_.BindVertexArray(vertex_array_);

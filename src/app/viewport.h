@@ -49,11 +49,16 @@ public:
 private:
   void upload();
 
+  struct Program {
+    GLuint id = 0;
+    GLint rectangle = -1;
+  };
+  Program make_program(const char* fragment_shader) const;
+
   const Gl& gl_;
-  GLuint program_ = 0;
+  Program filtered_, unfiltered_;
   GLuint vertex_array_ = 0;
   GLuint texture_ = 0;
-  GLint rectangle_ = -1;
   GLint max_size_ = 0;
   ivec2 texture_size_{0};
   bool has_mipmaps_ = false;
