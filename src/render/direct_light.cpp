@@ -8,13 +8,21 @@ namespace {
 /// first-level cache.
 constexpr std::size_t kChunk = 64;
 
-/// One light sample for each of at most kChunk seekers.
+/// The index-th light sample for each of at most kChunk seekers. `branched` is memory.
 void aim_once(const RenderScene& scene, const LightSelection& selection, std::span<LightSeeker> seekers,
-              std::uint32_t index, const PathSettings& settings, RayCounts& counts) {
+              std::uint32_t index, const PathSettings& settings, std::vector<Sampler>& branched,
+              RayCounts& counts) {
   std::array<Sampler::Draw, kChunk> draws;
   std::array<vec2, kChunk> u;
   const std::size_t count = seekers.size();
-  for (std::size_t k = 0; k < count; ++k) draws[k] = {seekers[k].sampler, index};
+  if (settings.light_samples == 1) {
+    for (std::size_t k = 0; k < count; ++k) draws[k] = {seekers[k].sampler, 0};
+  } else { // those of all samples are one sequence
+    const auto all = static_cast<std::uint32_t>(settings.light_samples);
+    branched.clear();
+    for (std::size_t k = 0; k < count; ++k) branched.push_back(seekers[k].sampler->branch(index, all));
+    for (std::size_t k = 0; k < count; ++k) draws[k] = {&branched[k], 0};
+  }
   const std::span<const Sampler::Draw> asked(draws.data(), count);
   Sampler::get_2d(asked, Dimension::light_position, u);
 
@@ -62,10 +70,11 @@ void aim_at_lights(const RenderScene& scene, std::span<LightSeeker> seekers, con
   bool aim = settings.light_sampling != LightSampling::bsdf;
   const LightSelection& selection = aim ? scene.all_lights() : scene.delta_lights();
   if (selection.empty()) return;
+  std::vector<Sampler> branched;
   for (std::size_t begin = 0; begin < seekers.size(); begin += kChunk)
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(settings.light_samples); ++i)
       aim_once(scene, selection, seekers.subspan(begin, std::min(kChunk, seekers.size() - begin)), i,
-               settings, counts);
+               settings, branched, counts);
 }
 
 } // namespace candela

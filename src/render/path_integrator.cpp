@@ -2,14 +2,6 @@
 
 namespace candela {
 
-namespace {
-
-/// Branches of a split path have bounces of their own; longer unsplit paths than this would only share
-/// numbers with them.
-constexpr std::uint32_t kBranchShift = 20;
-
-} // namespace
-
 bool shows_depth(const PathSettings& settings, int depth) {
   if (settings.only_depth > 0 && depth != settings.only_depth) return false;
   switch (settings.component) {
@@ -40,7 +32,9 @@ void PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
   paths_.clear();
   for (std::uint32_t i = 0; i < starts.size(); ++i) {
     results_[i] = {};
-    paths_.emplace_back(starts[i]).result = i;
+    Path& path = paths_.emplace_back(starts[i]);
+    path.result = i;
+    path.split = starts[i].sampler.sample() == 0;
   }
   for (int depth = 1; depth <= last_depth_ && !paths_.empty(); ++depth) {
     meet_surfaces(depth);
@@ -55,7 +49,7 @@ void PathTracer::meet_surfaces(int depth) {
   arrived_.clear();
   hits_.resize(paths_.size());
   for (Path& path : paths_) {
-    path.sampler.set_bounce(static_cast<std::uint32_t>(depth) + (path.branch << kBranchShift));
+    path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
     if (intersect_scene(scene_, path.ray, path.sampler, hits_[arrived_.size()], counts_))
       arrived_.push_back(&path);
     else
@@ -154,21 +148,31 @@ void PathTracer::choose_directions(int depth) {
   next_.clear();
   tries_.clear();
   if (depth + 1 > last_depth_) return; // nothing beyond matters
+  std::size_t split = 0;
   for (const Stop& stop : stops_)
-    for (int k = 0; k < stop.branches; ++k) tries_.push_back({&stop, static_cast<std::uint32_t>(k)});
-  const std::size_t count = tries_.size();
+    if (stop.branches > 1) split += static_cast<std::size_t>(stop.branches);
+  branched_.clear();
+  branched_.reserve(split); // draws_ point into it
   draws_.clear();
-  for (const Try& t : tries_) draws_.push_back({&t.stop->path->sampler, t.index});
+  for (const Stop& stop : stops_) {
+    const auto branches = static_cast<std::uint32_t>(stop.branches);
+    for (std::uint32_t k = 0; k < branches; ++k) {
+      const Sampler& own = stop.path->sampler;
+      tries_.push_back(&stop);
+      draws_.push_back({branches > 1 ? &branched_.emplace_back(own.branch(k, branches)) : &own, 0});
+    }
+  }
+  const std::size_t count = tries_.size();
   direction_u_.resize(count), lobe_u_.resize(count), roulette_u_.resize(count);
   Sampler::get_2d(draws_, Dimension::bsdf_direction, direction_u_);
   Sampler::get_1d(draws_, Dimension::bsdf_lobe, lobe_u_);
   Sampler::get_1d(draws_, Dimension::russian_roulette, roulette_u_);
   for (std::size_t i = 0; i < count; ++i) {
-    const Try& from = tries_[i];
-    Path& path = next_.emplace_back(*from.stop->path);
-    if (from.stop->branches > 1) {
-      const auto branches = static_cast<float>(from.stop->branches);
-      path.branch = from.index;
+    const Stop& from = *tries_[i];
+    Path& path = next_.emplace_back(*from.path);
+    if (from.branches > 1) {
+      const auto branches = static_cast<float>(from.branches);
+      path.sampler = *draws_[i].sampler;
       path.throughput /= branches;
       path.roulette_scale *= branches;
     }
@@ -177,9 +181,9 @@ void PathTracer::choose_directions(int depth) {
 }
 
 /// Turns the path into a direction of its own; false where it ends.
-bool PathTracer::go_on(Path& path, const Try& from, int depth, vec3 direction_u, float roulette_u) const {
-  const Vertex& vertex = from.stop->vertex;
-  auto s = sample_direction(from.stop->bsdf(), vertex.wo_local, direction_u, settings_.direction_sampling);
+bool PathTracer::go_on(Path& path, const Stop& from, int depth, vec3 direction_u, float roulette_u) const {
+  const Vertex& vertex = from.vertex;
+  auto s = sample_direction(from.bsdf(), vertex.wo_local, direction_u, settings_.direction_sampling);
   if (!s) return false;
   vec3 wi = vertex.frame.to_world(s->wi);
   if (!vertex.keeps_side(wi, s->wi.z * vertex.wo_local.z > 0)) return false;
@@ -191,7 +195,7 @@ bool PathTracer::go_on(Path& path, const Try& from, int depth, vec3 direction_u,
   path.throughput /= q;
 
   path.arrived_by_delta = s->delta;
-  path.arrival_density = s->pdf * static_cast<float>(from.stop->branches);
+  path.arrival_density = s->pdf * static_cast<float>(from.branches);
   path.reference = vertex.reference;
   path.ray = spawn_ray(vertex.surface, wi);
   return true;

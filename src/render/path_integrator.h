@@ -27,6 +27,8 @@ struct PathStart {
 /// the next one while it waits for this one. On the Cornell box that is 1.4 times as fast as one path after
 /// another. What a path brings back does not depend on the company that it travels in.
 ///
+/// A pixel's first sample is never split, so that the first picture does not wait for it.
+///
 /// Unbiased unless the settings say otherwise (max_depth, component, only_depth). For one thread; keep it,
 /// for it keeps its memory.
 class PathTracer {
@@ -48,8 +50,7 @@ private:
     /// the way out of the glass gives back, and the share of a split.
     float roulette_scale = 1;
     std::uint32_t result = 0; ///< the sample that it adds to
-    std::uint32_t branch = 0;
-    bool split = false;
+    bool split = false;       ///< has, or may not any more
     // The last vertex: how the path left it.
     bool arrived_by_delta = true; ///< the camera cannot be aimed from
     float arrival_density = 0;    ///< 1/sr, times the number of directions tried there
@@ -71,12 +72,6 @@ private:
     }
   };
 
-  /// A direction to try from a stop.
-  struct Try {
-    const Stop* stop;
-    std::uint32_t index;
-  };
-
   void meet_surfaces(int depth);
   void aim(int depth);
   void choose_directions(int depth);
@@ -86,7 +81,7 @@ private:
   void add_emission(const Path& path, const Vertex& vertex, int depth);
   bool needs_aimed_pdf(const Path& path) const;
   float weight_by_chance(const Path& path, float aimed_pdf) const;
-  bool go_on(Path& path, const Try& from, int depth, vec3 direction_u, float roulette_u) const;
+  bool go_on(Path& path, const Stop& from, int depth, vec3 direction_u, float roulette_u) const;
   float survival(const Path& path, int depth) const;
 
   const RenderScene& scene_;
@@ -101,7 +96,8 @@ private:
   std::vector<Hit> hits_; ///< parallel to arrived_
   std::vector<Stop> stops_;
   std::vector<LightSeeker> seekers_;
-  std::vector<Try> tries_;
+  std::vector<const Stop*> tries_;   ///< directions to try, by where from
+  std::vector<Sampler> branched_;    ///< of tries that split a path
   std::vector<Sampler::Draw> draws_; ///< parallel to tries_, as are these
   std::vector<vec2> direction_u_;
   std::vector<float> lobe_u_, roulette_u_;

@@ -76,30 +76,32 @@ public:
   /// Goes to a pixel's sample, at bounce 0.
   void start(uvec2 pixel, std::uint32_t sample) {
     pixel_key_ = hash_combine(seed_, (static_cast<std::uint64_t>(pixel.y) << 32) | pixel.x);
-    sample_ = sample;
-    switch (type_) {
-    case SamplerType::independent: pixel_key_ = hash_combine(pixel_key_, sample); break;
-    case SamplerType::stratified:
-      block_ = sample / (strata_ * strata_);
-      sample_in_block_ = sample % (strata_ * strata_);
-      break;
-    case SamplerType::halton: break;
-    case SamplerType::sobol:
-    case SamplerType::pmj02:
-    case SamplerType::lattice: reversed_sample_ = reverse_bits(sample); break;
-    case SamplerType::blue_noise:
-      reversed_sample_ = reverse_bits(sample);
+    if (type_ == SamplerType::blue_noise) {
       reversed_morton_ = reverse_bits(morton_code(pixel.x % kBlueNoiseTile, pixel.y % kBlueNoiseTile));
       pixel_key_ = hash_combine(seed_, (static_cast<std::uint64_t>(pixel.y / kBlueNoiseTile) << 32) |
                                            pixel.x / kBlueNoiseTile);
-      break;
     }
+    set_sample(sample);
     set_bounce(0);
+  }
+
+  std::uint32_t sample() const { return sample_; }
+
+  /// For the k-th of `count` branches that a sample divides into: the branches of samples 0, 1, 2, ... are
+  /// the samples k + count * 0, 1, 2, ... of one sequence, as well spread as that. Numbers drawn before, for
+  /// one purpose and at one bounce, must not be drawn again.
+  Sampler branch(std::uint32_t k, std::uint32_t count) const {
+    Sampler s = *this;
+    if (type_ == SamplerType::independent)
+      s.bounce_key_ = hash_combine(bounce_key_, k), s.pixel_key_ = hash_combine(pixel_key_, k);
+    else
+      s.set_sample(sample_ * count + k);
+    return s;
   }
 
   void set_bounce(std::uint32_t bounce) { bounce_key_ = hash_combine(pixel_key_, bounce); }
 
-  /// The `index`-th of repeated draws for one purpose (several light samples at a vertex). A dimension is
+  /// The `index`-th of repeated draws for one purpose (surfaces that are looked through). A dimension is
   /// drawn in 1-D or in 2-D, not both: they are not independent.
   float get_1d(Dimension dimension, std::uint32_t index = 0) const {
     if (type_ != SamplerType::stratified) return get_2d(dimension, index).x;
@@ -141,6 +143,22 @@ public:
   static void get_1d(std::span<const Draw> draws, Dimension dimension, std::span<float> points);
 
 private:
+  void set_sample(std::uint32_t sample) {
+    sample_ = sample;
+    switch (type_) {
+    case SamplerType::independent: pixel_key_ = hash_combine(pixel_key_, sample); break;
+    case SamplerType::stratified:
+      block_ = sample / (strata_ * strata_);
+      sample_in_block_ = sample % (strata_ * strata_);
+      break;
+    case SamplerType::halton: break;
+    case SamplerType::sobol:
+    case SamplerType::pmj02:
+    case SamplerType::lattice:
+    case SamplerType::blue_noise: reversed_sample_ = reverse_bits(sample); break;
+    }
+  }
+
   std::uint64_t key(Dimension dimension, std::uint32_t index) const {
     return hash_combine(bounce_key_,
                         (static_cast<std::uint64_t>(index) << 32) | static_cast<std::uint64_t>(dimension));

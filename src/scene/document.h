@@ -75,12 +75,13 @@ struct PathSettings {
   RussianRoulette rr = RussianRoulette::throughput;
   int rr_depth = 1; ///< the segment after which Russian roulette starts
   /// Of rr = throughput: what carries less than this goes on with the chance of throughput / threshold.
-  float rr_threshold = 0.5f;
+  float rr_threshold = 0.35f;
   float rr_probability = 0.9f; ///< chance to go on, of rr = fixed
   PathComponent component = PathComponent::all;
   int only_depth = 0; ///< show paths of this many segments alone; 0: all
-  int split = 1;      ///< paths that go on from the first surface that is not specular
-  float clamp = 0;    ///< largest value of a sample's channel; 0: off (it biases)
+  /// Paths that go on from the first surface that is not specular, but for a pixel's first sample.
+  int split = 2;
+  float clamp = 0; ///< largest value of a sample's channel; 0: off (it biases)
   bool operator==(const PathSettings&) const = default;
 };
 

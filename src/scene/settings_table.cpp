@@ -82,7 +82,8 @@ const Field<Document> kTable[] = {
       "Shows the light of paths of this length alone (1: emitters seen, 2: direct, 3: one bounce); 0: all"},
      AT(settings.path.only_depth)},
     {{"path.split", FieldType::integer, 1, 64, "paths",
-      "Paths that go on from the first surface that is not specular, each with its share of the weight"},
+      "Paths that go on from the first surface that is not specular, each with its share of the weight; "
+      "a pixel's first sample is not split, so that it comes soon"},
      AT(settings.path.split)},
     {{"path.clamp",
       FieldType::real,

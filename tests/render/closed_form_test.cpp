@@ -73,7 +73,7 @@ void expect_cornell(bool blocks, LightSampling light, MisHeuristic heuristic, do
   }
   for (SamplerType type : {SamplerType::sobol, SamplerType::independent}) {
     s.document.settings.sampler.type = type;
-    s.document.settings.stop.spp = type == SamplerType::sobol ? spp : 4096;
+    s.document.settings.stop.spp = type == SamplerType::sobol ? spp : 6144;
     s.document.settings.sampler.seed = sampler_seed(static_cast<std::uint64_t>(light) * 2 + blocks);
     Film film = render(s.document, options);
     double chi_square = 0, relative_sum = 0, relative_variance = 0;

@@ -57,6 +57,27 @@ TEST(Sampler, ManyDrawsAtOnceAreTheSameToTheBit) {
     }
 }
 
+TEST(Sampler, BranchesOfAllSamplesAreOneSequence) {
+  for (SamplerType type : kSamplerTypes) {
+    std::set<std::pair<float, float>> seen;
+    for (std::uint32_t i = 0; i < 32; ++i)
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        Sampler whole(type, 7, 3), part(type, 7, 3);
+        whole.start({5, 8}, 3 * i + k), whole.set_bounce(2);
+        part.start({5, 8}, i), part.set_bounce(2);
+        Sampler branch = part.branch(k, 3);
+        vec2 p = branch.get_2d(Dimension::bsdf_direction);
+        if (type != SamplerType::independent) { // of which any sequence is as good
+          EXPECT_EQ(p, whole.get_2d(Dimension::bsdf_direction));
+        }
+        branch.set_bounce(3);
+        vec2 further = branch.get_2d(Dimension::bsdf_direction);
+        EXPECT_TRUE(seen.insert({p.x, p.y}).second && seen.insert({further.x, further.y}).second)
+            << static_cast<int>(type) << ' ' << i << ' ' << k;
+      }
+  }
+}
+
 TEST(Sampler, StartGoesToBounceZero) {
   for (SamplerType type : kSamplerTypes) {
     Sampler a(type, 1), b(type, 1);
