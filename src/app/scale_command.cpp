@@ -171,6 +171,11 @@ private:
   ScaleReport report_;
 };
 
+double load_average() {
+  double load = 0;
+  return getloadavg(&load, 1) == 1 ? load : 0;
+}
+
 void write_plot(const ScaleReport& report, const std::string& path) {
   Figure figure;
   FigurePanel panel;
@@ -193,7 +198,9 @@ int run_scale_bench(const ScaleBenchOptions& o) {
   extent.picture_spp = o.picture_spp.value_or(extent.picture_spp);
   for (const auto* path : {&o.plot, &o.picture}) // refuse before the work, not after
     if (*path) image_format_of(**path);
-  const ScaleReport report = ScaleRun(o, extent).run();
+  const double load = load_average();
+  ScaleReport report = ScaleRun(o, extent).run();
+  report.load = {load, load_average()};
   if (o.json) write_file_atomically(*o.json, scale_json(report));
   if (o.plot) write_plot(report, *o.plot);
   fmt::print("{}", scale_tables(report, o.markdown ? TableFormat::markdown : TableFormat::text));

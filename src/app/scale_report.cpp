@@ -105,8 +105,8 @@ std::string scale_tables(const ScaleReport& report, TableFormat format) {
     const ScaleResult& first = report.scenes.empty() ? report.landscapes.front() : report.scenes.front();
     out +=
         fmt::format("Pictures of {}x{}; the first image has one sample a pixel, and its seconds hold reading "
-                    "and building.\n",
-                    first.width, first.height);
+                    "and building. The machine's load was {:.1f} before and {:.1f} in the end.\n",
+                    first.width, first.height, report.load[0], report.load[1]);
   }
   if (const auto& p = report.picture)
     out += fmt::format(
@@ -133,6 +133,7 @@ Plot scale_plot(const ScaleReport& report) {
 std::string scale_json(const ScaleReport& report) {
   nlohmann::ordered_json out;
   out["version"] = CANDELA_VERSION;
+  out["load_average"] = report.load;
   auto add = [&](const char* name, const std::vector<ScaleResult>& results) {
     for (const ScaleResult& r : results) out[name].push_back(nlohmann::ordered_json::parse(to_json(r)));
   };

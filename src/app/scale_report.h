@@ -4,6 +4,7 @@
 #include "app/plot.h"
 #include "app/scale_bench.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@ struct ScaleReport {
   std::vector<ScaleResult> landscapes; ///< the same picture from ever more distinct triangles
   std::vector<ScaleResult> stones;     ///< the same picture from instances of ever finer meshes
   std::optional<ScalePicture> picture;
+  std::array<double, 2> load{}; ///< average number of running threads of the minute before, and of the last
 };
 
 enum class TableFormat { text, markdown };

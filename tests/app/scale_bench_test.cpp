@@ -144,9 +144,10 @@ TEST(ScaleReport, TablesPlotAndJson) {
   report.scenes = {result("landscape", 1'002'528, 2.5e6)};
   report.landscapes = {result("landscape_1000", 1'026, 4e6), result("landscape", 1'002'528, 2.5e6)};
   report.picture = ScalePicture{3840, 2160, 64, 2, 1, 0.5, 240, 1.25e-3, 4e-3, std::uint64_t{900} << 20};
+  report.load = {0.25, 2};
   const std::string text = scale_tables(report, TableFormat::text);
-  for (const char* part :
-       {"1,002,528", "1.25", "0.500", "2.00", "2.50", "3840x2160", "relMSE 0.0013", "900 MiB"})
+  for (const char* part : {"1,002,528", "1.25", "0.500", "2.00", "2.50", "3840x2160", "relMSE 0.0013",
+                           "900 MiB", "load was 0.2 before and 2.0"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   const std::string markdown = scale_tables(report, TableFormat::markdown);
   EXPECT_TRUE(markdown.starts_with("| scene | triangles |")) << markdown;
