@@ -140,14 +140,17 @@ const vec3* EnvironmentMap::row(int face, int y) const {
   return image.pixels.data() + static_cast<std::ptrdiff_t>(line) * image.width;
 }
 
-/// At q of a face's square [0, 1]^2, y downwards.
-EnvironmentMap::Footprint EnvironmentMap::footprint(int face, vec2 q) const {
+/// About q of a face's square [0, 1]^2, y downwards.
+EnvironmentMap::Corners EnvironmentMap::corners(int face, vec2 q) const {
   vec2 p = q * vec2(width_, height_) - 0.5f, base = glm::floor(p);
   const auto x = std::clamp(static_cast<int>(base.x), -1, width_ - 1);
   const auto y = std::clamp(static_cast<int>(base.y), -1, height_ - 1);
-  const vec3 *above = row(face, y), *below = row(face, y + 1);
-  const int left = column(x), right = column(x + 1);
-  return {{above[left], above[right], below[left], below[right]}, p - base};
+  return {row(face, y), row(face, y + 1), column(x), column(x + 1), p - base};
+}
+
+EnvironmentMap::Footprint EnvironmentMap::footprint(int face, vec2 q) const {
+  Corners at = corners(face, q);
+  return {{at.above[at.left], at.above[at.right], at.below[at.left], at.below[at.right]}, at.f};
 }
 
 vec3 EnvironmentMap::lookup(int face, vec2 q) const {
@@ -224,14 +227,22 @@ float mix_weights(const std::array<vec3, 4>& texels, vec2 f, float dark) {
 
 } // namespace
 
-EnvironmentMap::Seen EnvironmentMap::look(vec3 d, EnvironmentAim aim) const {
+EnvironmentMap::Place EnvironmentMap::locate(vec3 d) const {
+  ChartPoint point = chart_point(d);
+  Corners at = corners(point.face, point.q);
+  __builtin_prefetch(at.above + at.left);
+  __builtin_prefetch(at.below + at.left);
+  return {d, point.face, point.q};
+}
+
+EnvironmentMap::Seen EnvironmentMap::look(const Place& at, EnvironmentAim aim) const {
   const Density& by = density(aim);
-  ChartPoint at = chart_point(d);
   Footprint seen = footprint(at.face, at.q);
   vec2 p = at.q * vec2(width_, height_);
   const int x = std::min(static_cast<int>(p.x), width_ - 1), y = std::min(static_cast<int>(p.y), height_ - 1);
-  return {d, mix_square(seen.texels, seen.f),
-          mix_weights(seen.texels, seen.f, by.dark) * factor(by, x, y) * per_steradian(at, d)};
+  return {at.direction, mix_square(seen.texels, seen.f),
+          mix_weights(seen.texels, seen.f, by.dark) * factor(by, x, y) *
+              per_steradian({at.face, at.q}, at.direction)};
 }
 
 /// A texel by what it sends, then a place in it: the weight is linear in x and in y between its centre and

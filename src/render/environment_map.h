@@ -52,8 +52,18 @@ public:
   /// luminance (of `bright`: the interpolation of what texels have above the mean) times a factor that varies
   /// little: the solid angle of a texel over that of the place, as if the texel were as large everywhere.
   std::optional<Seen> sample(vec2 u, EnvironmentAim aim = EnvironmentAim::all) const;
+  /// Where a direction is on the chart.
+  struct Place {
+    vec3 direction{0}; ///< unit
+    int face = 0;      ///< 0 of an image that is no cube's
+    vec2 q{0};         ///< of the face's square, in [0, 1)^2, y downwards
+  };
+  /// Finds the place of the unit direction d and sends for its texels, which look() will want: they come
+  /// from anywhere in a large image.
+  Place locate(vec3 d) const;
   /// radiance() and pdf() at once.
-  Seen look(vec3 d, EnvironmentAim aim = EnvironmentAim::all) const;
+  Seen look(const Place& at, EnvironmentAim aim = EnvironmentAim::all) const;
+  Seen look(vec3 d, EnvironmentAim aim = EnvironmentAim::all) const { return look(locate(d), aim); }
   /// The density of sample(), 1/sr.
   float pdf(vec3 d, EnvironmentAim aim = EnvironmentAim::all) const { return look(d, aim).pdf; }
 
@@ -62,12 +72,16 @@ public:
   std::size_t memory_bytes() const;
 
 private:
-  /// A point of a face, or of an image that is none's.
   struct ChartPoint {
     int face;
-    vec2 q; ///< in [0, 1)^2, y downwards
+    vec2 q;
   };
-  /// Between four texels.
+  /// Four texels.
+  struct Corners {
+    const vec3 *above, *below; ///< rows
+    int left, right;
+    vec2 f; ///< how far to the right and down
+  };
   struct Footprint {
     std::array<vec3, 4> texels; ///< upper left, upper right, lower left, lower right
     vec2 f;                     ///< how far to the right and down
@@ -92,6 +106,7 @@ private:
   int column(int x) const;
   const vec3* row(int face, int y) const;
   vec3 texel(int face, int x, int y) const { return row(face, y)[column(x)]; }
+  Corners corners(int face, vec2 q) const;
   Footprint footprint(int face, vec2 q) const;
   vec3 lookup(int face, vec2 q) const;
   double texel_solid_angle(int x, int y) const;

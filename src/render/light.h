@@ -180,18 +180,6 @@ inline vec3 light_radiance(const Light& light, vec3 direction) {
       },
       light);
 }
-/// light_radiance(), and light_pdf() of an infinite light, at once.
-struct InfiniteLook {
-  vec3 radiance;
-  float pdf;
-};
-inline InfiniteLook look_at_infinite(const Light& light, const LightReference& ref, vec3 direction) {
-  if (const auto* environment = std::get_if<EnvironmentLight>(&light)) {
-    auto seen = environment->map->look(direction * environment->world_from_map, ref.environment_aim());
-    return {environment->factor * seen.radiance, seen.pdf};
-  }
-  return {light_radiance(light, direction), light_pdf(light, ref, {}, direction)};
-}
 inline bool is_delta_light(const Light& light) {
   return std::holds_alternative<PointLight>(light) || std::holds_alternative<SpotLight>(light) ||
          std::holds_alternative<DirectionalLight>(light);

@@ -47,14 +47,16 @@ void PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
 
 void PathTracer::meet_surfaces(int depth) {
   arrived_.clear();
+  missed_.clear();
   hits_.resize(paths_.size());
   for (Path& path : paths_) {
     path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
     if (intersect_scene(scene_, path.ray, path.sampler, hits_[arrived_.size()], counts_))
       arrived_.push_back(&path);
     else
-      add_background(path, depth);
+      missed_.push_back(&path);
   }
+  if (shows_depth(settings_, depth)) meet_background(depth);
   stops_.clear();
   for (std::size_t i = 0; i < arrived_.size(); ++i) {
     Path& path = *arrived_[i];
@@ -100,21 +102,31 @@ bool PathTracer::needs_aimed_pdf(const Path& path) const {
   return !path.arrived_by_delta && settings_.light_sampling == LightSampling::mis;
 }
 
-void PathTracer::add_background(const Path& path, int depth) {
-  if (!shows_depth(settings_, depth)) return;
+/// The infinite lights behind the paths that missed all surfaces.
+void PathTracer::meet_background(int depth) {
   for (std::uint32_t i : scene_.infinite_lights()) {
     const Light& light = scene_.lights()[i];
-    vec3 radiance;
-    float aimed = 0;
-    if (needs_aimed_pdf(path)) {
-      InfiniteLook look = look_at_infinite(light, path.reference, path.ray.direction);
-      radiance = look.radiance;
-      aimed = scene_.all_lights().pmf(path.reference, i) * look.pdf;
+    if (const auto* environment = std::get_if<EnvironmentLight>(&light)) {
+      // All texels are sent for before the first is waited for: with a panorama of 2048 x 1024 that halves
+      // the time of looking at it.
+      places_.clear();
+      for (const Path* path : missed_)
+        places_.push_back(environment->map->locate(path->ray.direction * environment->world_from_map));
+      for (std::size_t k = 0; k < missed_.size(); ++k) {
+        auto seen = environment->map->look(places_[k], missed_[k]->reference.environment_aim());
+        add_background(*missed_[k], i, environment->factor * seen.radiance, seen.pdf, depth);
+      }
     } else {
-      radiance = light_radiance(light, path.ray.direction);
+      for (const Path* path : missed_)
+        add_background(*path, i, light_radiance(light, path->ray.direction),
+                       light_pdf(light, path->reference, {}, path->ray.direction), depth);
     }
-    results_[path.result].add(path.throughput * radiance * weight_by_chance(path, aimed), depth);
   }
+}
+
+void PathTracer::add_background(const Path& path, std::uint32_t light, vec3 radiance, float pdf, int depth) {
+  float aimed = needs_aimed_pdf(path) ? scene_.all_lights().pmf(path.reference, light) * pdf : 0;
+  results_[path.result].add(path.throughput * radiance * weight_by_chance(path, aimed), depth);
 }
 
 void PathTracer::add_emission(const Path& path, const Vertex& vertex, int depth) {

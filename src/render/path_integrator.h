@@ -77,7 +77,8 @@ private:
   void choose_directions(int depth);
 
   void prepare_aiming(Stop& stop) const;
-  void add_background(const Path& path, int depth);
+  void meet_background(int depth);
+  void add_background(const Path& path, std::uint32_t light, vec3 radiance, float pdf, int depth);
   void add_emission(const Path& path, const Vertex& vertex, int depth);
   bool needs_aimed_pdf(const Path& path) const;
   float weight_by_chance(const Path& path, float aimed_pdf) const;
@@ -92,6 +93,8 @@ private:
   std::span<PathSample> results_;
   RayCounts counts_;
   std::vector<Path> paths_, next_;
+  std::vector<Path*> missed_;
+  std::vector<EnvironmentMap::Place> places_; ///< parallel to missed_
   std::vector<Path*> arrived_;
   std::vector<Hit> hits_; ///< parallel to arrived_
   std::vector<Stop> stops_;
