@@ -27,26 +27,40 @@ inline float mis_weight(MisHeuristic how, float mine, float other) {
   return 1 / (1 + (how == MisHeuristic::power ? ratio * ratio : ratio));
 }
 
+/// The shading normal for a viewer at wo, on whose side of the surface the geometric normal lies if `side` >
+/// 0: where the interpolated one looks away it is bent until it just does not, so that smooth meshes have no
+/// black slivers along their silhouettes.
+inline vec3 visible_normal(vec3 shading_normal, vec3 wo, float side) {
+  constexpr float kGrazing = 1e-4f; // cosine
+  const vec3 viewer = side > 0 ? wo : -wo;
+  const float cosine = glm::dot(shading_normal, viewer);
+  if (cosine >= kGrazing) return shading_normal;
+  return glm::normalize(shading_normal + (kGrazing - cosine) * viewer);
+}
+
 /// A hit made ready for scattering.
 struct Vertex {
   Surface surface;
   const SurfaceMaterial* material;
-  vec3 wo; ///< unit, where the ray came from
-  Basis frame;
+  vec3 wo;     ///< unit, where the ray came from
+  float side;  ///< cosine of wo with the geometric normal: > 0 outside
+  Basis frame; ///< about the shading normal
   vec3 wo_local;
-  float side;               ///< cosine of wo with the geometric normal: > 0 outside
   LightReference reference; ///< of this point, for aiming at lights
 
   /// Made in place: copies of what has just been written by parts stall the processor.
   Vertex(const RenderScene& scene, const Ray& ray, const Hit& hit)
       : surface(scene.geometry().surface(ray, hit)), material(&scene.material(surface.material)),
-        wo(-ray.direction), frame(Basis::from_normal(surface.shading_normal)), wo_local(frame.to_local(wo)),
-        side(glm::dot(wo, surface.geometric_normal)) {
-    reference.position = surface.position;
-    reference.normal = side > 0 ? surface.geometric_normal : -surface.geometric_normal;
-  }
+        wo(-ray.direction), side(glm::dot(wo, surface.geometric_normal)),
+        frame(Basis::from_normal(visible_normal(surface.shading_normal, wo, side))),
+        wo_local(frame.to_local(wo)), reference{surface.position,
+                                                side > 0 ? surface.geometric_normal
+                                                         : -surface.geometric_normal,
+                                                false,
+                                                {},
+                                                vec3(0)} {}
 
-  /// Whether anything sensible scatters here: not where the interpolated normal looks away from the viewer.
+  /// Whether anything scatters here: not where the surface is seen edge-on.
   bool scatters() const { return wo_local.z * side > 0; }
   /// Whether a scattered direction stays on the side of the surface that its reflection or refraction means;
   /// the interpolated normal may take it through.
