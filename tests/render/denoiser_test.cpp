@@ -101,8 +101,9 @@ TEST(Denoiser, IsFiniteWhereNothingIs) {
   EXPECT_EQ(*result, flat);
 }
 
-// The texture's edges are sharp: nowhere is the result as far off as it would be had it mixed two squares,
-// whose colours are 0.35 apart at the least.
+// The texture's edges are sharp: hardly anywhere (a pixel in one of 40 runs has that much noise) is the
+// result as far off as it would be along all edges had it mixed two squares, whose colours are 0.35 apart at
+// the least.
 TEST(DenoiserStatistical, KeepsTextures) {
   SCOPED_TRACE(test::seed_note());
   std::mt19937 random(static_cast<std::uint32_t>(test::fresh_seed()));
@@ -112,11 +113,13 @@ TEST(DenoiserStatistical, KeepsTextures) {
   auto result = denoise(input);
   ASSERT_TRUE(result);
   double error = 0;
+  int mixed = 0;
   for (std::size_t i = 0; i < wall.color.pixels.size(); ++i) {
     vec3 d = result->pixels[i] - wall.color.pixels[i];
     error += static_cast<double>(glm::dot(d, d)) / 3;
-    ASSERT_LT(max_component(glm::abs(d)), 0.15f) << i;
+    mixed += max_component(glm::abs(d)) > 0.15f;
   }
+  EXPECT_LT(mixed, 8);
   error /= static_cast<double>(wall.color.pixels.size());
   EXPECT_LT(error, 0.5 * static_cast<double>(deviation * deviation / 2)) << "of the noisy mean's error";
 }
