@@ -279,8 +279,9 @@ std::optional<EnvironmentMap::Seen> EnvironmentMap::sample(vec2 u, EnvironmentAi
   auto d = direction(at);
   if (!d) return std::nullopt;
   Footprint seen = footprint(face, at.q);
-  return Seen{*d, mix_square(seen.texels, seen.f),
-              mix_weights(seen.texels, seen.f, by.dark) * factor(by, x, y) * per_steradian(at, *d)};
+  const float pdf = mix_weights(seen.texels, seen.f, by.dark) * factor(by, x, y) * per_steradian(at, *d);
+  if (!(pdf > 0)) return std::nullopt; // the very end of a ramp that begins at nothing
+  return Seen{*d, mix_square(seen.texels, seen.f), pdf};
 }
 
 /// Of a texel: exact for latlong, by its centre for the others. One on the rim of an angular map is weighed

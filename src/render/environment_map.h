@@ -48,9 +48,10 @@ public:
     vec3 radiance{0};
     float pdf = 0; ///< 1/sr
   };
-  /// u in [0, 1)^2; nothing for a u outside of the disc of an angular map. The density is the interpolated
-  /// luminance (of `bright`: the interpolation of what texels have above the mean) times a factor that varies
-  /// little: the solid angle of a texel over that of the place, as if the texel were as large everywhere.
+  /// u in [0, 1)^2; nothing for a u outside of the disc of an angular map, or where nothing shines. The
+  /// density is the interpolated luminance (of `bright`: the interpolation of what texels have above the
+  /// mean) times a factor that varies little: the solid angle of a texel over that of the place, as if the
+  /// texel were as large everywhere.
   std::optional<Seen> sample(vec2 u, EnvironmentAim aim = EnvironmentAim::all) const;
   /// Where a direction is on the chart.
   struct Place {

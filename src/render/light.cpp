@@ -261,7 +261,6 @@ std::optional<LightSample> ConstantLight::sample(const LightReference& ref, vec2
   s.radiance = radiance;
   s.pdf = pdf(ref, {}, s.direction);
   s.infinite = true;
-  if (!(s.pdf > 0)) return std::nullopt;
   return s;
 }
 
@@ -273,7 +272,6 @@ std::optional<LightSample> EnvironmentLight::sample(const LightReference& ref, v
   s.radiance = factor * seen->radiance;
   s.pdf = seen->pdf;
   s.infinite = true;
-  if (!(s.pdf > 0)) return std::nullopt;
   return s;
 }
 

@@ -207,6 +207,7 @@ void expect_density(const MappingCase& m, const EnvironmentMap& map, Environment
     if (!s) return std::nullopt;
     auto seen = map.look(s->direction, aim); // at a texel's edge, rounding may look into the next
     unlike += std::abs(seen.pdf - s->pdf) > 0.01f * s->pdf;
+    if (!(seen.pdf > 0)) return std::nullopt; // or into nothing
     return s->direction;
   };
   auto result = test_directions(SphereBins({0, 0, 1}, 2, 24, 36), 60000, draw,
