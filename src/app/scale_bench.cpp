@@ -2,6 +2,7 @@
 
 #include "app/picture_output.h"
 #include "core/statistics.h"
+#include "render/compare.h"
 #include "session/offline_render.h"
 
 #include <nlohmann/json.hpp>
@@ -64,12 +65,10 @@ double pair_relmse(Document document, ivec2 size, const OfflineOptions& options)
     ++document.settings.sampler.seed;
     image = render_document(document, options).film.image();
   }
-  double sum = 0;
-  for (std::size_t i = 0; i < images[0].pixels.size(); ++i) {
-    const glm::dvec3 a(images[0].pixels[i]), b(images[1].pixels[i]), mean = 0.5 * (a + b);
-    for (int c = 0; c < 3; ++c) sum += 0.5 * (a[c] - b[c]) * (a[c] - b[c]) / (mean[c] * mean[c] + 0.01);
-  }
-  return sum / (3 * static_cast<double>(images[0].pixels.size()));
+  Image mean = images[0];
+  for (std::size_t i = 0; i < mean.pixels.size(); ++i)
+    mean.pixels[i] = 0.5f * (mean.pixels[i] + images[1].pixels[i]);
+  return 2 * relative_mse(images[0].pixels, mean.pixels); // what differs from the mean of two is half of it
 }
 
 // The members by name, for both ways through JSON.

@@ -111,7 +111,8 @@ std::string scale_tables(const ScaleReport& report, TableFormat format) {
   if (const auto& p = report.picture)
     out += fmt::format(
         "{}x{}, {} samples a pixel by {} threads, not denoised: read {} s, build {} s, render {} s; "
-        "relMSE {:.2g} (of two seeds; by the variance of samples {:.2g}); peak {} MiB.\n",
+        "relMSE {:.2g} (of two seeds at an eighth of the size; by the variance of samples {:.2g}); peak {} "
+        "MiB.\n",
         p->width, p->height, p->spp, p->threads, seconds(p->load_s), seconds(p->build_s),
         seconds(p->render_s), p->relmse, p->variance_relmse, megabytes(p->peak_bytes));
   return out;

@@ -261,6 +261,7 @@ std::optional<LightSample> ConstantLight::sample(const LightReference& ref, vec2
   s.radiance = radiance;
   s.pdf = pdf(ref, {}, s.direction);
   s.infinite = true;
+  if (!(s.pdf > 0)) return std::nullopt; // the frame rounds
   return s;
 }
 
