@@ -21,6 +21,7 @@ std::unique_ptr<RenderSession> make_session(const ViewerOptions& options) {
   SessionOptions session;
   session.threads = options.threads;
   session.on_publish = options.wake;
+  session.on_build = options.on_build;
   return std::make_unique<RenderSession>(std::move(session));
 }
 

@@ -44,6 +44,7 @@ struct ViewerOptions {
   Preferences preferences;
   std::filesystem::path preferences_path; ///< where they are written; empty: nowhere
   std::function<void()> wake; ///< called from any thread when there is something to draw; may be empty
+  std::function<void(const Progress&)> on_build; ///< SessionOptions::on_build of the main picture
 };
 
 class Viewer {

@@ -2,6 +2,7 @@
 // The interactive engine: the only owner of the render thread. The UI submits Documents and looks at what is
 // newest; no call of it ever waits for rendering.
 
+#include "core/progress.h"
 #include "render/display_transform.h"
 #include "render/frame.h"
 #include "render/picking.h"
@@ -53,13 +54,15 @@ struct DisplayImage {
 };
 
 struct SessionOptions {
-  int threads = 0;                  ///< 0: every core
-  std::function<void()> on_publish; ///< called from a session thread when there is something new to show
+  int threads = 0;                       ///< 0: every core
+  std::function<void()> on_publish = {}; ///< called from a session thread when there is something new to show
+  /// Called from the render thread, which waits for it, before it builds geometry with this progress.
+  std::function<void(const Progress&)> on_build = {};
   double min_publish_interval =
       1 / 30.0; ///< see publish_every(); seconds between pictures once the first full one is shown
-  std::shared_ptr<RenderTurns> turns;             ///< taken with other sessions; null: alone on the machine
-  int side = 0;                                   ///< which one this is
-  std::shared_ptr<const RenderScene> geometry_of; ///< reused where the instances are the same
+  std::shared_ptr<RenderTurns> turns = {}; ///< taken with other sessions; null: alone on the machine
+  int side = 0;                            ///< which one this is
+  std::shared_ptr<const RenderScene> geometry_of = {}; ///< reused where the instances are the same
 };
 
 class RenderSession {

@@ -30,6 +30,7 @@ std::shared_ptr<const Geometry> RenderSession::State::geometry_for(const std::ve
   if (previous != nullptr && previous->instances() == instances) return previous->shared_geometry();
   const bool moved =
       previous != nullptr && std::ranges::includes(meshes_of(previous->instances()), meshes_of(instances));
+  if (options.on_build) options.on_build(*progress);
   return Geometry::build(instances, moved ? BuildQuality::fast : BuildQuality::high, progress.get(), known);
 }
 

@@ -68,6 +68,7 @@ struct HarnessOptions {
   bool fit_film = false; ///< a small fixed film keeps the tests quick
   std::filesystem::path screenshot_folder = ".";
   std::filesystem::path preferences = {}; ///< empty: nothing is remembered
+  std::function<void(const Progress&)> on_build = {};
 };
 
 /// One at a time: the newest context is the current one.
@@ -251,6 +252,7 @@ private:
     out.fit_film = options.fit_film;
     out.screenshot_folder = options.screenshot_folder;
     out.threads = 2;
+    out.on_build = options.on_build;
     std::string warning;
     out.preferences_path = options.preferences;
     if (!options.preferences.empty()) out.preferences = read_preferences(options.preferences, warning);

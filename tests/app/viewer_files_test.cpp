@@ -2,10 +2,8 @@
 
 #include "app/harness.h"
 #include "io/candela_json.h"
+#include "support/build_gate.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <fstream>
 
 namespace candela::test {
@@ -223,46 +221,25 @@ TEST(ViewerFilesUi, ReadingIsGivenUp) {
   EXPECT_FALSE(hand.find("working.cancel"));
 }
 
-/// Two million triangles that are read quickly: one file under many names, each of them a mesh of its own.
-void write_scene_that_takes_long_to_build(const ScratchFolder& folder) {
-  constexpr int kSide = 350, kMeshes = 8;
-  std::ofstream obj(folder / "waves.obj");
-  for (int i = 0; i <= kSide; ++i)
-    for (int j = 0; j <= kSide; ++j) obj << "v " << i << ' ' << j << ' ' << 5 * std::sin(0.1 * i + j) << '\n';
-  for (int i = 0; i < kSide; ++i)
-    for (int j = 0; j < kSide; ++j) {
-      const int a = i * (kSide + 1) + j + 1, b = a + kSide + 1;
-      obj << "f " << a << ' ' << b << ' ' << b + 1 << "\nf " << a << ' ' << b + 1 << ' ' << a + 1 << '\n';
-    }
-  std::string meshes, instances;
-  for (int i = 0; i < kMeshes; ++i) {
-    meshes += fmt::format("{}\"m{}\": {{\"file\": \"waves.obj\"}}", i ? ", " : "", i);
-    instances += fmt::format("{}{{\"mesh\": \"m{}\", \"transform\": [{{\"translate\": [0, 0, {}]}}]}}",
-                             i ? ", " : "", i, 20 * i);
-  }
-  write_text(folder / "waves.json",
-             fmt::format("{{\"candela\": 1, \"lights\": [{{\"type\": \"constant\"}}], \"meshes\": {{{}}}, "
-                         "\"instances\": [{}]}}",
-                         meshes, instances));
-}
-
 TEST(ViewerFilesUi, BuildingIsGivenUpForTheSceneBefore) {
   ScratchFolder folder;
-  write_scene_that_takes_long_to_build(folder);
-  const std::string path = folder / "waves.json";
-  ViewerHarness hand;
+  write_text(folder / "triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string path = folder / "triangle.json";
+  write_text(path,
+             R"({"candela": 1, "meshes": {"t": {"file": "triangle.obj"}}, "instances": [{"mesh": "t"}]})");
+  BuildGate gate(false);
+  ViewerHarness hand(test_document(), {.on_build = gate.hook()});
   hand.wait_for_picture();
   const Document before = hand.document();
   const std::string title = hand.viewer.title();
   const auto geometry = hand.viewer.session().scene();
+  gate.close();
   for (bool by_key : {false, true}) {
     if (by_key)
       control(hand, Key::y); // what was given up is redone
     else
       open(hand, path);
-    hand.wait_until("it is being built", [&] {
-      return hand.state().status.phase == SessionPhase::building && hand.state().status.built > 0;
-    });
+    hand.wait_until("it is being built", [&] { return hand.state().status.phase == SessionPhase::building; });
     hand.frame(1, 2);
     ASSERT_TRUE(hand.find("working")) << "it takes long";
     if (by_key) {
@@ -283,13 +260,15 @@ TEST(ViewerFilesUi, BuildingIsGivenUpForTheSceneBefore) {
 
 // There is nothing to go back to.
 TEST(ViewerFilesUi, TheFirstSceneIsNotGivenUp) {
-  ScratchFolder folder;
-  write_scene_that_takes_long_to_build(folder);
-  ViewerHarness hand(read_scene(folder / "waves.json").document);
-  ASSERT_EQ(hand.state().status.phase, SessionPhase::building);
+  BuildGate gate(true);
+  ViewerHarness hand(test_document(), {.on_build = gate.hook()});
+  hand.wait_until("it is being built", [&] { return hand.state().status.phase == SessionPhase::building; });
   hand.frame(1, 2);
   ASSERT_TRUE(hand.find("working"));
   EXPECT_FALSE(hand.find("working.cancel"));
+  gate.open();
+  hand.wait_for_picture();
+  EXPECT_FALSE(hand.find("working"));
 }
 
 TEST(ViewerFilesUi, TheLayoutIsRemembered) {

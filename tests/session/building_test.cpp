@@ -1,6 +1,7 @@
 // Geometry that takes long to build: how far it is, and that nobody waits for what is out of date.
 
 #include "session_testing.h"
+#include "support/build_gate.h"
 
 #include <chrono>
 #include <thread>
@@ -8,6 +9,7 @@
 namespace candela {
 namespace {
 
+using test::BuildGate;
 using test::headless;
 using test::kPatience;
 using test::shows;
@@ -20,8 +22,8 @@ Document small_document() {
   return s.document;
 }
 
-/// Waves of 2 * side^2 triangles: built in the order of a second.
-Document large_document(unsigned side = 800) {
+/// Waves of 2 * side^2 triangles.
+Document large_document(unsigned side) {
   Mesh mesh;
   for (unsigned i = 0; i <= side; ++i)
     for (unsigned j = 0; j <= side; ++j) {
@@ -52,21 +54,23 @@ bool wait_until(Condition condition) {
   return true;
 }
 
-/// Until the document handed in last is being built, far from its end.
+/// Until the document handed in last is being built.
 bool wait_for_building(const RenderSession& session, std::uint64_t generation) {
   return wait_until([&] {
     const SessionStatus status = session.status();
-    return status.generation == generation && status.phase == SessionPhase::building && status.built > 0;
+    return status.generation == generation && status.phase == SessionPhase::building;
   });
 }
 
 TEST(SessionBuilding, ANewerDocumentEndsTheBuildingOfTheOneBefore) {
-  RenderSession session;
+  BuildGate gate(false);
+  RenderSession session({.on_build = gate.hook()});
   const Document small = small_document();
   session.submit(small);
   ASSERT_TRUE(session.wait_finished(kPatience));
   const auto built = session.built();
-  ASSERT_TRUE(wait_for_building(session, session.submit(large_document())));
+  gate.close();
+  ASSERT_TRUE(wait_for_building(session, session.submit(large_document(20))));
   const std::uint64_t back = session.submit(small);
   ASSERT_TRUE(session.wait_finished(kPatience));
   EXPECT_EQ(session.status().builds_cancelled, 1u);
@@ -76,9 +80,12 @@ TEST(SessionBuilding, ANewerDocumentEndsTheBuildingOfTheOneBefore) {
 }
 
 TEST(SessionBuilding, TheFirstOneMayBeOutOfDateToo) {
-  RenderSession session;
-  ASSERT_TRUE(wait_for_building(session, session.submit(large_document())));
+  BuildGate gate(true);
+  RenderSession session({.on_build = gate.hook()});
+  ASSERT_TRUE(wait_for_building(session, session.submit(large_document(20))));
   session.submit(small_document());
+  ASSERT_TRUE(wait_until([&] { return session.status().builds_cancelled == 1; }));
+  gate.open();
   ASSERT_TRUE(session.wait_finished(kPatience));
   EXPECT_EQ(session.status().builds_cancelled, 1u);
   EXPECT_EQ(session.built().scene->geometry().world().triangles.size(), 0u);
@@ -86,11 +93,13 @@ TEST(SessionBuilding, TheFirstOneMayBeOutOfDateToo) {
 
 // Who flies through a scene that is being built would otherwise never see it.
 TEST(SessionBuilding, AnotherCameraLetsItGoOn) {
-  RenderSession session;
-  Document large = large_document();
+  BuildGate gate(true);
+  RenderSession session({.on_build = gate.hook()});
+  Document large = large_document(20);
   ASSERT_TRUE(wait_for_building(session, session.submit(large)));
   large.scene.camera.position.z = 5;
   session.submit(large);
+  gate.open();
   ASSERT_TRUE(session.wait_finished(kPatience));
   EXPECT_EQ(session.status().builds_cancelled, 0u);
 }
@@ -181,11 +190,9 @@ TEST(SessionBuilding, ShareGrows) {
 }
 
 TEST(SessionBuilding, WhoLeavesDoesNotWaitForIt) {
-  auto progress_seen = [](RenderSession& session) {
-    return wait_for_building(session, session.submit(large_document(400)));
-  };
-  auto session = std::make_unique<RenderSession>();
-  ASSERT_TRUE(progress_seen(*session));
+  BuildGate gate(true);
+  auto session = std::make_unique<RenderSession>(SessionOptions{.on_build = gate.hook()});
+  ASSERT_TRUE(wait_for_building(*session, session->submit(large_document(20))));
   session.reset(); // joins; under the sanitizers nothing is left behind
 }
 
