@@ -28,7 +28,7 @@ inline float bsdf_pdf(const Bsdf& bsdf, vec3 wo, vec3 wi) {
 inline BsdfEval bsdf_eval_pdf(const Bsdf& bsdf, vec3 wo, vec3 wi) {
   return std::visit([&](const auto& model) { return model.eval_pdf(wo, wi); }, bsdf);
 }
-inline std::optional<BsdfSample> bsdf_sample(const Bsdf& bsdf, vec3 wo, vec3 u) {
+inline std::optional<BsdfSample> bsdf_sample(const Bsdf& bsdf, vec3 wo, BsdfU u) {
   return std::visit([&](const auto& model) { return model.sample(wo, u); }, bsdf);
 }
 inline float bsdf_delta_probability(const Bsdf& bsdf, vec3 wo) {

@@ -5,11 +5,23 @@
 // surface. Reflecting models are two-sided: below the surface (wo.z < 0) they act as above it, mirrored.
 
 #include "core/math.h"
+#include "sampling/warp.h"
 
 #include <concepts>
 #include <optional>
 
 namespace candela {
+
+/// The random numbers that choose a direction. Every model maps the same disc, so whoever samples many can
+/// make those points side by side.
+struct BsdfU {
+  vec2 disc;  ///< uniform on the unit disc; chooses the direction
+  float lobe; ///< in [0, 1); chooses the lobe
+
+  BsdfU(vec2 on_disc, float u) : disc(on_disc), lobe(u) {}
+  /// From [0, 1)^3: the direction by x and y, the lobe by z.
+  BsdfU(vec3 u) : disc(sample_uniform_disc({u.x, u.y})), lobe(u.z) {}
+};
 
 struct BsdfSample {
   vec3 wi;
@@ -33,13 +45,12 @@ struct BsdfEval {
 /// - pdf: density in 1/sr with which sample() gives wi by a lobe without delta. Over the sphere it
 ///   integrates to 1 - delta_probability(wo), less the probability that sample() fails.
 /// - eval_pdf: both at once.
-/// - sample: u in [0, 1)^3; u.z chooses the lobe, and a delta lobe exactly where
-///   u.z < delta_probability(wo); u.xy chooses the direction. Nothing where the sample carries no light
-///   (absorbed, or a direction below the surface): it counts as a sample of value 0.
+/// - sample: a delta lobe exactly where u.lobe < delta_probability(wo). Nothing where the sample carries no
+///   light (absorbed, or a direction below the surface): it counts as a sample of value 0.
 /// - delta_probability: with which sample() takes a delta lobe (0: there is none, 1: there is nothing else).
 /// - albedo: rough reflectance, for the albedo view only.
 template <class B>
-concept BsdfModel = requires(const B& b, vec3 wo, vec3 wi, vec3 u) {
+concept BsdfModel = requires(const B& b, vec3 wo, vec3 wi, BsdfU u) {
   { b.eval(wo, wi) } -> std::same_as<vec3>;
   { b.pdf(wo, wi) } -> std::same_as<float>;
   { b.eval_pdf(wo, wi) } -> std::same_as<BsdfEval>;

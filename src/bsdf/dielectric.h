@@ -16,11 +16,11 @@ struct Dielectric {
   float pdf(vec3, vec3) const { return 0; }
   BsdfEval eval_pdf(vec3, vec3) const { return {vec3(0), 0}; }
 
-  std::optional<BsdfSample> sample(vec3 wo, vec3 u) const {
+  std::optional<BsdfSample> sample(vec3 wo, BsdfU u) const {
     float eta = wo.z > 0 ? ior : 1 / ior;
     std::optional<vec3> wi = refract(wo, eta);
     float reflectance = wi ? fresnel_dielectric(std::abs(wo.z), eta) : 1;
-    if (u.z < reflectance) return BsdfSample{reflect_about_normal(wo), vec3(1), reflectance, true};
+    if (u.lobe < reflectance) return BsdfSample{reflect_about_normal(wo), vec3(1), reflectance, true};
     if (is_black(transmittance)) return std::nullopt;
     // Radiance over the squared refractive index is what a refraction preserves: a beam that enters the
     // denser side is squeezed into a smaller solid angle (Veach 1997, section 5.2). wi is where the light

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "bsdf/bsdf_sample.h"
-#include "sampling/warp.h"
 
 namespace candela {
 
@@ -17,8 +16,8 @@ struct Diffuse {
     float cosine_pdf = pdf(wo, wi);
     return {reflectance * cosine_pdf, cosine_pdf};
   }
-  std::optional<BsdfSample> sample(vec3 wo, vec3 u) const {
-    vec3 wi = to_side_of(wo, sample_cosine_hemisphere({u.x, u.y}));
+  std::optional<BsdfSample> sample(vec3 wo, BsdfU u) const {
+    vec3 wi = to_side_of(wo, cosine_hemisphere_from_disc(u.disc));
     float cosine_pdf = pdf(wo, wi);
     if (!(cosine_pdf > 0) || is_black(reflectance)) return std::nullopt;
     return BsdfSample{wi, reflectance, cosine_pdf, false};

@@ -31,12 +31,11 @@ inline float direction_pdf(const Bsdf& bsdf, vec3 wo, vec3 wi, DirectionSampling
 /// As BsdfModel::sample, but with `uniform` and `cosine` the lobes without delta are sampled over the
 /// hemisphere on wo's side (all such lobes reflect). Delta lobes are still taken with delta_probability, for
 /// no other density ever meets them; so every strategy has the same expectation.
-inline std::optional<BsdfSample> sample_direction(const Bsdf& bsdf, vec3 wo, vec3 u, DirectionSampling how) {
-  if (how == DirectionSampling::bsdf || u.z < bsdf_delta_probability(bsdf, wo))
+inline std::optional<BsdfSample> sample_direction(const Bsdf& bsdf, vec3 wo, BsdfU u, DirectionSampling how) {
+  if (how == DirectionSampling::bsdf || u.lobe < bsdf_delta_probability(bsdf, wo))
     return bsdf_sample(bsdf, wo, u);
-  vec2 square(u.x, u.y);
-  vec3 wi = how == DirectionSampling::uniform ? sample_uniform_hemisphere(square)
-                                              : sample_cosine_hemisphere(square);
+  vec3 wi = how == DirectionSampling::uniform ? uniform_cone_from_disc(u.disc, 1)
+                                              : cosine_hemisphere_from_disc(u.disc);
   wi = to_side_of(wo, wi);
   BsdfEval e = direction_eval_pdf(bsdf, wo, wi, how);
   if (!(e.pdf > 0) || is_black(e.f_cos)) return std::nullopt;

@@ -2,7 +2,6 @@
 
 #include "bsdf/bsdf_sample.h"
 #include "bsdf/fresnel.h"
-#include "sampling/warp.h"
 
 namespace candela {
 
@@ -40,13 +39,13 @@ struct Ggx {
     return {f_cos, d / (2 * (cap_scale(wo, a) * cos_o + projected_o))};
   }
 
-  std::optional<BsdfSample> sample(vec3 wo, vec3 u) const {
+  std::optional<BsdfSample> sample(vec3 wo, BsdfU u) const {
     if (wo.z == 0) return std::nullopt;
     float a = alpha();
     vec3 w = to_side_of({0, 0, 1}, wo);
     // In the space where the surface is a hemisphere: the cap of directions that it mirrors w into.
     vec3 w_std = glm::normalize(vec3(a * w.x, a * w.y, w.z));
-    vec3 mirrored = sample_uniform_cone({u.x, u.y}, 1 + cap_scale(w, a) * w_std.z);
+    vec3 mirrored = uniform_cone_from_disc(u.disc, 1 + cap_scale(w, a) * w_std.z);
     vec3 h_std = w_std + mirrored;
     vec3 h = glm::normalize(vec3(a * h_std.x, a * h_std.y, std::max(h_std.z, 0.0f)));
     vec3 wi = 2 * glm::dot(w, h) * h - w;

@@ -2,7 +2,6 @@
 
 #include "bsdf/bsdf_sample.h"
 #include "core/color.h"
-#include "sampling/warp.h"
 
 namespace candela {
 
@@ -19,13 +18,13 @@ struct Mirror {
   }
   BsdfEval eval_pdf(vec3 wo, vec3 wi) const { return {eval(wo, wi), pdf(wo, wi)}; }
 
-  std::optional<BsdfSample> sample(vec3 wo, vec3 u) const {
+  std::optional<BsdfSample> sample(vec3 wo, BsdfU u) const {
     float p = delta_probability(wo);
-    if (u.z < p) {
+    if (u.lobe < p) {
       if (is_black(specular)) return std::nullopt;
       return BsdfSample{reflect_about_normal(wo), specular / p, p, true};
     }
-    vec3 wi = to_side_of(wo, sample_cosine_hemisphere({u.x, u.y}));
+    vec3 wi = to_side_of(wo, cosine_hemisphere_from_disc(u.disc));
     float density = pdf(wo, wi);
     if (!(density > 0)) return std::nullopt;
     return BsdfSample{wi, diffuse / (1 - p), density, false};

@@ -3,7 +3,6 @@
 #include "bsdf/bsdf_sample.h"
 #include "core/basis.h"
 #include "core/color.h"
-#include "sampling/warp.h"
 
 namespace candela {
 
@@ -32,17 +31,16 @@ struct Phong {
     return {f * cos_theta_i, (1 - p) * cos_theta_i * kInvPi + p * (exponent + 1) * lobe};
   }
 
-  std::optional<BsdfSample> sample(vec3 wo, vec3 u) const {
+  std::optional<BsdfSample> sample(vec3 wo, BsdfU u) const {
     vec3 wi;
-    if (u.z < specular_probability()) {
+    if (u.lobe < specular_probability()) {
       // cos alpha = (1 - v)^(1 / (n + 1)) with v = |disc point|^2 uniform.
-      vec2 d = sample_uniform_disc({u.x, u.y});
-      float v = std::min(glm::dot(d, d), kOneMinusEpsilon);
+      float v = std::min(glm::dot(u.disc, u.disc), kOneMinusEpsilon);
       float one_minus_cos = -std::expm1(std::log1p(-v) / (exponent + 1));
       float scale = v > 0 ? safe_sqrt(one_minus_cos * (2 - one_minus_cos) / v) : 0;
-      wi = Basis::from_normal(reflect_about_normal(wo)).to_world({d * scale, 1 - one_minus_cos});
+      wi = Basis::from_normal(reflect_about_normal(wo)).to_world({u.disc * scale, 1 - one_minus_cos});
     } else {
-      wi = to_side_of(wo, sample_cosine_hemisphere({u.x, u.y}));
+      wi = to_side_of(wo, cosine_hemisphere_from_disc(u.disc));
     }
     BsdfEval e = eval_pdf(wo, wi);
     if (!(e.pdf > 0) || is_black(e.f_cos)) return std::nullopt;

@@ -175,8 +175,9 @@ void PathTracer::choose_directions(int depth) {
     }
   }
   const std::size_t count = tries_.size();
-  direction_u_.resize(count), lobe_u_.resize(count), roulette_u_.resize(count);
-  Sampler::get_2d(draws_, Dimension::bsdf_direction, direction_u_);
+  disc_.resize(count), lobe_u_.resize(count), roulette_u_.resize(count);
+  Sampler::get_2d(draws_, Dimension::bsdf_direction, disc_);
+  sample_uniform_discs(disc_);
   Sampler::get_1d(draws_, Dimension::bsdf_lobe, lobe_u_);
   Sampler::get_1d(draws_, Dimension::russian_roulette, roulette_u_);
   for (std::size_t i = 0; i < count; ++i) {
@@ -188,14 +189,14 @@ void PathTracer::choose_directions(int depth) {
       path.throughput /= branches;
       path.roulette_scale *= branches;
     }
-    if (!go_on(path, from, depth, vec3(direction_u_[i], lobe_u_[i]), roulette_u_[i])) next_.pop_back();
+    if (!go_on(path, from, depth, {disc_[i], lobe_u_[i]}, roulette_u_[i])) next_.pop_back();
   }
 }
 
 /// Turns the path into a direction of its own; false where it ends.
-bool PathTracer::go_on(Path& path, const Stop& from, int depth, vec3 direction_u, float roulette_u) const {
+bool PathTracer::go_on(Path& path, const Stop& from, int depth, BsdfU u, float roulette_u) const {
   const Vertex& vertex = from.vertex;
-  auto s = sample_direction(from.bsdf(), vertex.wo_local, direction_u, settings_.direction_sampling);
+  auto s = sample_direction(from.bsdf(), vertex.wo_local, u, settings_.direction_sampling);
   if (!s) return false;
   vec3 wi = vertex.frame.to_world(s->wi);
   if (!vertex.keeps_side(wi, s->wi.z * vertex.wo_local.z > 0)) return false;

@@ -82,7 +82,7 @@ private:
   void add_emission(const Path& path, const Vertex& vertex, int depth);
   bool needs_aimed_pdf(const Path& path) const;
   float weight_by_chance(const Path& path, float aimed_pdf) const;
-  bool go_on(Path& path, const Stop& from, int depth, vec3 direction_u, float roulette_u) const;
+  bool go_on(Path& path, const Stop& from, int depth, BsdfU u, float roulette_u) const;
   float survival(const Path& path, int depth) const;
 
   const RenderScene& scene_;
@@ -102,7 +102,7 @@ private:
   std::vector<const Stop*> tries_;   ///< directions to try, by where from
   std::vector<Sampler> branched_;    ///< of tries that split a path
   std::vector<Sampler::Draw> draws_; ///< parallel to tries_, as are these
-  std::vector<vec2> direction_u_;
+  std::vector<vec2> disc_;           ///< BsdfU::disc
   std::vector<float> lobe_u_, roulette_u_;
 };
 
