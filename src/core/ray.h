@@ -19,16 +19,15 @@ struct Ray {
 /// ray from there towards w cannot meet the surface it leaves (pbrt-v4, section 6.8.6).
 inline vec3 offset_ray_origin(vec3 p, vec3 p_error, vec3 n, vec3 w) {
   float d = glm::dot(glm::abs(n), p_error);
-  vec3 offset = d * n;
-  if (glm::dot(w, n) < 0) offset = -offset;
-  vec3 po = p + offset;
+  float side = glm::dot(w, n) < 0 ? -d : d;
   // Round away from the surface: by at least the distance to the next float, and without branches, for the
   // signs of a normal cannot be predicted.
-  for (int i = 0; i < 3; ++i) {
-    float step = std::abs(po[i]) * std::numeric_limits<float>::epsilon() + std::numeric_limits<float>::min();
-    po[i] += offset[i] == 0 ? 0.0f : std::copysign(step, offset[i]);
-  }
-  return po;
+  auto away = [](float from, float offset) {
+    float moved = from + offset;
+    float step = std::abs(moved) * std::numeric_limits<float>::epsilon() + std::numeric_limits<float>::min();
+    return moved + (offset == 0 ? 0.0f : std::copysign(step, offset));
+  };
+  return {away(p.x, side * n.x), away(p.y, side * n.y), away(p.z, side * n.z)};
 }
 
 } // namespace candela

@@ -11,12 +11,11 @@ vec2 interpolate(const std::vector<vec2>& values, uvec3 t, float u, float v) {
 }
 
 /// Object-space point, its error and normals of a triangle hit.
-Surface triangle_surface(const TriangleSet& set, const Hit& hit) {
+void set_triangle_surface(Surface& s, const TriangleSet& set, const Hit& hit) {
   uvec3 t = set.triangles[hit.primitive];
   vec3 p0 = set.positions[t.x], p1 = set.positions[t.y], p2 = set.positions[t.z];
   float w = 1 - hit.u - hit.v;
   vec3 a = w * p0, b = hit.u * p1, c = hit.v * p2;
-  Surface s;
   s.position = a + b + c;
   s.position_error = gamma_bound(7) * (glm::abs(a) + glm::abs(b) + glm::abs(c)); // pbrt-v4, eq. 6.31
   // The test of the next ray against this triangle rounds t by the triangle's size in whatever direction,
@@ -34,16 +33,16 @@ Surface triangle_surface(const TriangleSet& set, const Hit& hit) {
     }
   }
   s.uv = set.uvs.empty() ? vec2(hit.u, hit.v) : interpolate(set.uvs, t, hit.u, hit.v);
-  return s;
 }
 
 } // namespace
 
 Surface Geometry::surface(const Ray& ray, const Hit& hit) const {
+  Surface s; // made where the caller wants it: copies of what has just been written by parts stall
   if (hit.kind == PrimitiveKind::triangle) {
     bool shared = hit.instance != kNoInstance;
     const TriangleSet& set = shared ? objects_[placed_[hit.instance].object]->set : world_;
-    Surface s = triangle_surface(set, hit);
+    set_triangle_surface(s, set, hit);
     if (shared) {
       const Placed& p = placed_[hit.instance];
       const mat4& m = p.world_from_object;
@@ -67,7 +66,6 @@ Surface Geometry::surface(const Ray& ray, const Hit& hit) const {
     }
     return s;
   }
-  Surface s;
   if (hit.kind == PrimitiveKind::sphere) {
     const SphereGeometry& sphere = spheres_[hit.primitive];
     s.geometric_normal = glm::normalize(ray.at(hit.t) - sphere.center);

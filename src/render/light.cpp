@@ -28,9 +28,15 @@ vec3 flat_point_error(vec3 corner, vec3 edge1, vec3 edge2) {
          gamma_bound(8) * max_component(glm::max(glm::abs(edge1), glm::abs(edge2)));
 }
 
-LightSample towards(const LightReference& ref, vec3 point, vec3 point_error, vec3 normal, vec3 radiance,
-                    float pdf) {
-  return {glm::normalize(point - ref.position), point, point_error, normal, radiance, pdf};
+/// Filled in where it is: copies of what has just been written by parts stall the processor.
+void set_towards(LightSample& s, const LightReference& ref, vec3 point, vec3 point_error, vec3 normal,
+                 vec3 radiance, float pdf) {
+  s.direction = glm::normalize(point - ref.position);
+  s.point = point;
+  s.point_error = point_error;
+  s.point_normal = normal;
+  s.radiance = radiance;
+  s.pdf = pdf;
 }
 
 } // namespace
@@ -41,7 +47,9 @@ std::optional<LightSample> TriangleLight::sample(const LightReference& ref, vec2
   vec3 p = corner + b.y * edge1 + b.z * edge2;
   float density = solid_angle_density(ref, p, normal, area, two_sided);
   if (!(density > 0)) return std::nullopt;
-  return towards(ref, p, flat_point_error(corner, edge1, edge2), normal, emission, density);
+  std::optional<LightSample> s;
+  set_towards(s.emplace(), ref, p, flat_point_error(corner, edge1, edge2), normal, emission, density);
+  return s;
 }
 
 float TriangleLight::pdf(const LightReference& ref, vec3 point, vec3) const {
@@ -60,17 +68,21 @@ SphericalRectangle seen_from(const RectangleLight& light, const LightReference& 
           light.length_x, light.length_y, ref.position};
 }
 
-LightSample towards_rectangle(const RectangleLight& light, const LightReference& ref, float x, float y,
-                              float pdf) {
-  return towards(ref, light.corner + x * light.axis_x + y * light.axis_y, light.point_error, light.normal,
-                 light.emission, pdf);
+vec3 place_on(const RectangleLight& light, float x, float y) {
+  return light.corner + x * light.axis_x + y * light.axis_y;
 }
 
-std::optional<LightSample> sample_area(const RectangleLight& light, const LightReference& ref, vec2 u) {
-  LightSample s = towards_rectangle(light, ref, u.x * light.length_x, u.y * light.length_y, 0);
-  s.pdf = solid_angle_density(ref, s.point, light.normal, light.area(), light.two_sided);
-  if (!(s.pdf > 0)) return std::nullopt;
-  return s;
+/// At `place`, along the edges, if the light covers enough of the sphere; else by area.
+void set_rectangle_sample(std::optional<LightSample>& sample, const RectangleLight& light,
+                          const LightReference& ref, vec2 u, vec2 place, float solid_angle) {
+  vec3 p = place_on(light, place.x, place.y);
+  float density = 1 / solid_angle;
+  if (!(solid_angle >= SphericalRectangle::kMinSolidAngle)) {
+    p = place_on(light, u.x * light.length_x, u.y * light.length_y);
+    density = solid_angle_density(ref, p, light.normal, light.area(), light.two_sided);
+    if (!(density > 0)) return sample.reset();
+  }
+  set_towards(sample.emplace(), ref, p, light.point_error, light.normal, light.emission, density);
 }
 
 } // namespace
@@ -78,9 +90,9 @@ std::optional<LightSample> sample_area(const RectangleLight& light, const LightR
 std::optional<LightSample> RectangleLight::sample(const LightReference& ref, vec2 u) const {
   if (!faces(ref, corner, normal, two_sided)) return std::nullopt;
   SphericalRectangle seen = seen_from(*this, ref);
-  if (seen.solid_angle < SphericalRectangle::kMinSolidAngle) return sample_area(*this, ref, u);
-  vec2 place = seen.place(u);
-  return towards_rectangle(*this, ref, place.x, place.y, 1 / seen.solid_angle);
+  std::optional<LightSample> s;
+  set_rectangle_sample(s, *this, ref, u, seen.place(u), seen.solid_angle);
+  return s;
 }
 
 float RectangleLight::pdf(const LightReference& ref, vec3 point, vec3) const {
@@ -123,11 +135,9 @@ private:
     for (std::size_t n = 0; n < batch_.count; ++n) {
       const LightQuery& query = queries_[index_[n]];
       const RectangleLight& light = std::get<RectangleLight>(*query.light);
-      auto solid_angle = static_cast<float>(batch_.solid_angle[n]);
-      samples_[index_[n]] = solid_angle >= SphericalRectangle::kMinSolidAngle
-                                ? towards_rectangle(light, *query.reference, static_cast<float>(batch_.x[n]),
-                                                    static_cast<float>(batch_.y[n]), 1 / solid_angle)
-                                : sample_area(light, *query.reference, query.u);
+      set_rectangle_sample(samples_[index_[n]], light, *query.reference, query.u,
+                           {static_cast<float>(batch_.x[n]), static_cast<float>(batch_.y[n])},
+                           static_cast<float>(batch_.solid_angle[n]));
     }
     batch_.count = 0;
   }
@@ -180,8 +190,10 @@ std::optional<LightSample> SphereLight::sample(const LightReference& ref, vec2 u
   }
   n = glm::normalize(n);
   vec3 offset = radius * n;
-  return towards(ref, center + offset, gamma_bound(6) * (glm::abs(center) + glm::abs(offset)), n, emission,
-                 density);
+  std::optional<LightSample> s;
+  set_towards(s.emplace(), ref, center + offset, gamma_bound(6) * (glm::abs(center) + glm::abs(offset)), n,
+              emission, density);
+  return s;
 }
 
 float SphereLight::pdf(const LightReference& ref, vec3 point, vec3) const {
@@ -198,7 +210,9 @@ std::optional<LightSample> DiscLight::sample(const LightReference& ref, vec2 u) 
   vec3 p = center + d.x * frame.s + d.y * frame.t;
   float density = solid_angle_density(ref, p, normal, kPi * sqr(radius), two_sided);
   if (!(density > 0)) return std::nullopt;
-  return towards(ref, p, gamma_bound(6) * (glm::abs(center) + radius), normal, emission, density);
+  std::optional<LightSample> s;
+  set_towards(s.emplace(), ref, p, gamma_bound(6) * (glm::abs(center) + radius), normal, emission, density);
+  return s;
 }
 
 float DiscLight::pdf(const LightReference& ref, vec3 point, vec3) const {
@@ -221,8 +235,9 @@ std::optional<LightSample> sample_point(const LightReference& ref, vec3 position
   if (!(distance2 > 0)) return std::nullopt;
   float divisor = attenuation.z * distance2;
   if (attenuation.x > 0 || attenuation.y > 0) divisor = attenuation_at(std::sqrt(distance2), attenuation);
-  LightSample s = towards(ref, position, vec3(0), vec3(0), intensity / divisor, 1);
-  s.delta = true;
+  std::optional<LightSample> s;
+  set_towards(s.emplace(), ref, position, vec3(0), vec3(0), intensity / divisor, 1);
+  s->delta = true;
   return s;
 }
 

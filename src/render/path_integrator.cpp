@@ -180,48 +180,58 @@ void PathTracer::choose_directions(int depth) {
   sample_uniform_discs(disc_);
   Sampler::get_1d(draws_, Dimension::bsdf_lobe, lobe_u_);
   Sampler::get_1d(draws_, Dimension::russian_roulette, roulette_u_);
-  for (std::size_t i = 0; i < count; ++i) {
+  const Roulette roulette = Roulette::at(settings_, depth);
+  for (std::size_t begin = 0; begin < count; begin += kLaneCount)
+    leave(begin, std::min(kLaneCount, count - begin), roulette);
+}
+
+/// Follows those of the tries that go on.
+void PathTracer::leave(std::size_t begin, std::size_t count, const Roulette& roulette) {
+  OnwardLanes& lanes = onward_;
+  lanes.count = 0;
+  for (std::size_t i = begin; i < begin + count; ++i) {
     const Stop& from = *tries_[i];
-    Path& path = next_.emplace_back(*from.path);
-    if (from.branches > 1) {
-      const auto branches = static_cast<float>(from.branches);
-      path.sampler = *draws_[i].sampler;
-      path.throughput /= branches;
-      path.roulette_scale *= branches;
-    }
-    if (!go_on(path, from, depth, {disc_[i], lobe_u_[i]}, roulette_u_[i])) next_.pop_back();
+    const Vertex& vertex = from.vertex;
+    auto s =
+        sample_direction(from.bsdf(), vertex.wo_local, {disc_[i], lobe_u_[i]}, settings_.direction_sampling);
+    if (!s) continue;
+    const auto branches = static_cast<float>(from.branches);
+    const std::size_t k = lanes.count++;
+    leaving_[k] = {i, s->pdf * branches, s->delta};
+    lanes.normal.set(k, vertex.frame.n);
+    lanes.geometric_normal.set(k, vertex.surface.geometric_normal);
+    lanes.position.set(k, vertex.surface.position);
+    lanes.position_error.set(k, vertex.surface.position_error);
+    lanes.side[k] = vertex.side;
+    lanes.local.set(k, s->wi);
+    lanes.cosines[k] = s->wi.z * vertex.wo_local.z;
+    lanes.throughput.set(k, from.path->throughput * s->weight / branches);
+    lanes.unscaled[k] = from.path->roulette_scale * sqr(s->eta) * branches;
+    lanes.u[k] = roulette_u_[i];
   }
-}
-
-/// Turns the path into a direction of its own; false where it ends.
-bool PathTracer::go_on(Path& path, const Stop& from, int depth, BsdfU u, float roulette_u) const {
-  const Vertex& vertex = from.vertex;
-  auto s = sample_direction(from.bsdf(), vertex.wo_local, u, settings_.direction_sampling);
-  if (!s) return false;
-  vec3 wi = vertex.frame.to_world(s->wi);
-  if (!vertex.keeps_side(wi, s->wi.z * vertex.wo_local.z > 0)) return false;
-  path.throughput *= s->weight;
-  path.roulette_scale *= sqr(s->eta);
-  // Russian roulette (Arvo and Kirk 1990): going on with probability q and weight 1/q keeps the mean.
-  float q = survival(path, depth);
-  if (roulette_u >= q) return false;
-  path.throughput /= q;
-
-  path.arrived_by_delta = s->delta;
-  path.arrival_density = s->pdf * static_cast<float>(from.branches);
-  path.reference = vertex.reference;
-  path.ray = spawn_ray(vertex.surface, wi);
-  return true;
-}
-
-float PathTracer::survival(const Path& path, int depth) const {
-  // Nothing, or less than a normal float: rounding would keep denormals alive for ever where reflectance is
-  // above 1/2.
-  float largest = max_component(path.throughput);
-  if (largest < std::numeric_limits<float>::min()) return 0;
-  if (settings_.rr == RussianRoulette::off || depth < settings_.rr_depth) return 1;
-  if (settings_.rr == RussianRoulette::fixed) return settings_.rr_probability;
-  return std::min(1.0f, largest * path.roulette_scale / settings_.rr_threshold);
+  lanes.choose(roulette);
+  // Who survives cannot be predicted.
+  std::size_t survivors = 0;
+  std::array<std::uint32_t, kLaneCount> going;
+  for (std::uint32_t k = 0; k < lanes.count; ++k) {
+    going[survivors] = k;
+    survivors += static_cast<std::size_t>(lanes.goes_on[k]);
+  }
+  for (std::size_t n = 0; n < survivors; ++n) {
+    const std::size_t k = going[n];
+    const Leaving& leaving = leaving_[k];
+    const Stop& from = *tries_[leaving.attempt];
+    Path& path = next_.emplace_back(*draws_[leaving.attempt].sampler);
+    path.ray.origin = lanes.origin[k];
+    path.ray.direction = lanes.direction[k];
+    path.throughput = lanes.throughput[k];
+    path.roulette_scale = lanes.unscaled[k];
+    path.result = from.path->result;
+    path.split = from.path->split;
+    path.arrived_by_delta = leaving.delta;
+    path.arrival_density = leaving.density;
+    path.reference = from.vertex.reference;
+  }
 }
 
 } // namespace candela

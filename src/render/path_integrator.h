@@ -2,6 +2,7 @@
 // The path tracer: radiance along camera rays by random walks from the eye.
 
 #include "render/direct_light.h"
+#include "render/onward.h"
 #include "render/path_sample.h"
 #include "render/transport.h"
 
@@ -42,6 +43,7 @@ private:
   /// A walk on its way: what the next vertex needs to know of those before.
   struct Path {
     explicit Path(const PathStart& start) : ray(start.ray), sampler(start.sampler) {}
+    explicit Path(const Sampler& s) : sampler(s) {}
 
     Ray ray;
     Sampler sampler;
@@ -82,8 +84,7 @@ private:
   void add_emission(const Path& path, const Vertex& vertex, int depth);
   bool needs_aimed_pdf(const Path& path) const;
   float weight_by_chance(const Path& path, float aimed_pdf) const;
-  bool go_on(Path& path, const Stop& from, int depth, BsdfU u, float roulette_u) const;
-  float survival(const Path& path, int depth) const;
+  void leave(std::size_t begin, std::size_t count, const Roulette& roulette);
 
   const RenderScene& scene_;
   PathSettings settings_;
@@ -104,6 +105,14 @@ private:
   std::vector<Sampler::Draw> draws_; ///< parallel to tries_, as are these
   std::vector<vec2> disc_;           ///< BsdfU::disc
   std::vector<float> lobe_u_, roulette_u_;
+  OnwardLanes onward_;
+  /// Of a direction in onward_.
+  struct Leaving {
+    std::size_t attempt; ///< index into tries_
+    float density;       ///< Path::arrival_density
+    bool delta;
+  };
+  Lanes<Leaving> leaving_;
 };
 
 } // namespace candela

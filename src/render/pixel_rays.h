@@ -29,13 +29,17 @@ public:
   /// Starts the sampler at the sample and draws its place in the pixel's filter and on the lens.
   PixelRay start(uvec2 pixel, std::uint32_t sample, Sampler& sampler) const {
     sampler.start(pixel, sample);
-    return at(pixel, sampler.get_2d(Dimension::film),
-              camera_.has_lens() ? sampler.get_2d(Dimension::lens) : vec2(0));
+    PixelRay result;
+    result.weight = at(pixel, sampler.get_2d(Dimension::film),
+                       camera_.has_lens() ? sampler.get_2d(Dimension::lens) : vec2(0), result.ray);
+    return result;
   }
-  /// The same from numbers that were drawn before.
-  PixelRay at(uvec2 pixel, vec2 film, vec2 lens) const {
+  /// The same from numbers that were drawn before. Makes the ray in place (a copy of what has just been
+  /// written by parts stalls the processor) and returns its weight.
+  float at(uvec2 pixel, vec2 film, vec2 lens, Ray& ray) const {
     FilterSample filter = filter_.sample(film);
-    return {camera_.ray(vec2(pixel) + 0.5f + filter.offset, lens), filter.weight};
+    ray = camera_.ray(vec2(pixel) + 0.5f + filter.offset, lens);
+    return filter.weight;
   }
 
 private:

@@ -53,9 +53,9 @@ public:
     if (shows_light() && follows_paths()) {
       parts_.resize(indices.size());
       paths_.trace(starts_, parts_, counts);
-      for (std::size_t i = 0; i < indices.size(); ++i) results[i] = show(parts_[i]);
+      for (std::size_t i = 0; i < indices.size(); ++i) show(parts_[i], results[i]);
     } else {
-      for (std::size_t i = 0; i < indices.size(); ++i) results[i] = alone(starts_[i], counts);
+      for (std::size_t i = 0; i < indices.size(); ++i) alone(starts_[i], results[i], counts);
     }
     for (std::size_t i = 0; i < indices.size(); ++i) { // as the pixel's filter weighs them
       if (weights_[i] == 1) continue;                  // always, for most filters
@@ -99,29 +99,23 @@ private:
     Sampler::get_2d(draws_, Dimension::film, film_);
     if (rays_.camera().has_lens()) Sampler::get_2d(draws_, Dimension::lens, lens_);
     weights_.resize(indices.size());
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-      PixelRay ray = rays_.at(indices[i].pixel, film_[i], lens_[i]);
-      starts_[i].ray = ray.ray;
-      weights_[i] = ray.weight;
-    }
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      weights_[i] = rays_.at(indices[i].pixel, film_[i], lens_[i], starts_[i].ray);
   }
 
   /// Of an integrator or a view that takes one sample after the other.
-  PixelSample alone(PathStart& start, RayCounts& counts) {
-    PixelSample result;
+  void alone(PathStart& start, PixelSample& result, RayCounts& counts) {
     if (!shows_light())
-      result.value =
-          first_hit_value(scene_, start.ray, rays_.camera().forward(), view_, start.sampler, counts);
+      result = {first_hit_value(scene_, start.ray, rays_.camera().forward(), view_, start.sampler, counts),
+                {}};
     else if (settings_.integrator == Integrator::whitted)
-      result = show(whitted_radiance(scene_, start.ray, start.sampler, settings_.path, counts));
+      show(whitted_radiance(scene_, start.ray, start.sampler, settings_.path, counts), result);
     else
-      result = show(ambient_occlusion_sample(scene_, start.ray, start.sampler, settings_, counts));
-    return result;
+      show(ambient_occlusion_sample(scene_, start.ray, start.sampler, settings_, counts), result);
   }
 
   /// What the view makes of the light.
-  PixelSample show(const PathSample& parts) const {
-    PixelSample result;
+  void show(const PathSample& parts, PixelSample& result) const {
     result.parts = parts;
     switch (view_) {
     case View::depth_share:
@@ -135,7 +129,6 @@ private:
       result.value = parts.radiance();
       if (settings_.path.clamp > 0) result.value = glm::min(result.value, settings_.path.clamp);
     }
-    return result;
   }
 
   const RenderScene& scene_;
