@@ -1,9 +1,9 @@
 #pragma once
 // Arrays side by side, for loops over many points of which compilers make vector code.
 //
-// A loop is vectorised if its arrays are plain floats or integers of 32 bits, if it calls nothing that is not
-// inlined, and if it has no branches: so items are chosen and written to arrays first, treated all alike in
-// the loop, and looked at afterwards.
+// A loop is vectorised if its arrays are plain floats or integers of 32 bits and of one object or __restrict,
+// if it calls nothing that is not inlined, and if it has no branches: so items are chosen and written to
+// arrays first, treated all alike in the loop, and looked at afterwards.
 
 #include "core/math.h"
 

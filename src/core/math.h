@@ -39,6 +39,9 @@ inline float select(bool condition, float a, float b) {
   return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) |
                               (std::bit_cast<std::uint32_t>(b) & ~mask));
 }
+inline vec3 select(bool condition, vec3 a, vec3 b) {
+  return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
+}
 inline float average(vec3 v) { return (v.x + v.y + v.z) * (1.0f / 3.0f); }
 inline bool is_finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 inline bool is_black(vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }

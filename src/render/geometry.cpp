@@ -1,6 +1,7 @@
 #include "render/geometry.h"
 
 #include "core/basis.h"
+#include "render/triangle_point.h"
 
 namespace candela {
 
@@ -10,60 +11,39 @@ vec2 interpolate(const std::vector<vec2>& values, uvec3 t, float u, float v) {
   return (1 - u - v) * values[t.x] + u * values[t.y] + v * values[t.z];
 }
 
-/// Object-space point, its error and normals of a triangle hit.
-void set_triangle_surface(Surface& s, const TriangleSet& set, const Hit& hit) {
-  uvec3 t = set.triangles[hit.primitive];
-  vec3 p0 = set.positions[t.x], p1 = set.positions[t.y], p2 = set.positions[t.z];
-  float w = 1 - hit.u - hit.v;
-  vec3 a = w * p0, b = hit.u * p1, c = hit.v * p2;
-  s.position = a + b + c;
-  s.position_error = gamma_bound(7) * (glm::abs(a) + glm::abs(b) + glm::abs(c)); // pbrt-v4, eq. 6.31
-  // The test of the next ray against this triangle rounds t by the triangle's size in whatever direction,
-  // also where the point itself has no error along the normal (a wall in a coordinate plane). The factor is
-  // where self-intersections of well-shaped triangles ended when measured.
-  s.position_error += gamma_bound(8) * max_component(glm::max(glm::abs(p1 - p0), glm::abs(p2 - p0)));
-  s.geometric_normal = glm::normalize(glm::cross(p1 - p0, p2 - p0));
-  s.shading_normal = s.geometric_normal;
-  if (!set.normals.empty()) {
-    vec3 n0 = set.normals[t.x], n1 = set.normals[t.y], n2 = set.normals[t.z];
-    // A vertex without a normal makes its triangle flat.
-    if (!is_black(n0) && !is_black(n1) && !is_black(n2)) {
-      vec3 n = w * n0 + hit.u * n1 + hit.v * n2;
-      if (length_squared(n) > 0) s.shading_normal = n; // normalised by the caller, after its transform
-    }
-  }
-  s.uv = set.uvs.empty() ? vec2(hit.u, hit.v) : interpolate(set.uvs, t, hit.u, hit.v);
-}
-
 } // namespace
 
 Surface Geometry::surface(const Ray& ray, const Hit& hit) const {
   Surface s; // made where the caller wants it: copies of what has just been written by parts stall
   if (hit.kind == PrimitiveKind::triangle) {
-    bool shared = hit.instance != kNoInstance;
+    const bool shared = hit.instance != kNoInstance;
     const TriangleSet& set = shared ? objects_[placed_[hit.instance].object]->set : world_;
-    set_triangle_surface(s, set, hit);
+    const uvec3 t = set.triangles[hit.primitive];
+    TrianglePoint p =
+        triangle_point(set.positions[t.x], set.positions[t.y], set.positions[t.z], hit.u, hit.v);
+    vec3 smooth = set.smooth_normal(t, hit.u, hit.v);
     if (shared) {
-      const Placed& p = placed_[hit.instance];
-      const mat4& m = p.world_from_object;
+      const Placed& placed = placed_[hit.instance];
+      const mat4& m = placed.world_from_object;
       // The error of the object-space point, transformed, and that of transforming it (pbrt-v4,
       // section 6.8.4).
       mat3 abs_m(glm::abs(vec3(m[0])), glm::abs(vec3(m[1])), glm::abs(vec3(m[2])));
-      s.position_error = (gamma_bound(3) + 1) * (abs_m * s.position_error) +
-                         gamma_bound(3) * (abs_m * glm::abs(s.position) + glm::abs(vec3(m[3])));
-      s.position = transform_point(m, s.position);
-      s.geometric_normal = glm::normalize(p.normal_to_world * s.geometric_normal);
-      s.shading_normal = set.normals.empty() ? s.geometric_normal : p.normal_to_world * s.shading_normal;
-      s.material = p.slot_materials[set.materials[hit.primitive]];
-      s.emitter = p.first_emitter + hit.primitive;
+      p.error = (gamma_bound(3) + 1) * (abs_m * p.error) +
+                gamma_bound(3) * (abs_m * glm::abs(p.position) + glm::abs(vec3(m[3])));
+      p.position = transform_point(m, p.position);
+      p.normal = glm::normalize(placed.normal_to_world * p.normal);
+      smooth = placed.normal_to_world * smooth;
+      s.material = placed.slot_materials[set.materials[hit.primitive]];
+      s.emitter = placed.first_emitter + hit.primitive;
     } else {
       s.material = set.materials[hit.primitive];
       s.emitter = hit.primitive;
     }
-    if (!set.normals.empty()) {
-      s.shading_normal = glm::normalize(s.shading_normal);
-      if (glm::dot(s.shading_normal, s.geometric_normal) < 0) s.shading_normal = -s.shading_normal;
-    }
+    s.position = p.position;
+    s.position_error = p.error;
+    s.geometric_normal = p.normal;
+    s.shading_normal = shading_normal(smooth, p.normal);
+    s.uv = set.uvs.empty() ? vec2(hit.u, hit.v) : interpolate(set.uvs, t, hit.u, hit.v);
     return s;
   }
   if (hit.kind == PrimitiveKind::sphere) {

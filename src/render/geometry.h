@@ -26,6 +26,15 @@ struct TriangleSet {
   std::vector<vec2> uvs;     ///< parallel to positions if not empty
   std::vector<uvec3> triangles;
   std::vector<std::uint32_t> materials; ///< per triangle: a material, or a slot for objects
+
+  /// The vertices' normals at barycentric coordinates, not of unit length; zero where the triangle is flat,
+  /// as it is if a vertex has none.
+  vec3 smooth_normal(uvec3 t, float u, float v) const {
+    if (normals.empty()) return vec3(0);
+    vec3 n0 = normals[t.x], n1 = normals[t.y], n2 = normals[t.z];
+    if (is_black(n0) || is_black(n1) || is_black(n2)) return vec3(0);
+    return (1 - u - v) * n0 + u * n1 + v * n2;
+  }
 };
 
 /// A placed rectangle, as a light samples it whole rather than as its two triangles.

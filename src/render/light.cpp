@@ -72,17 +72,18 @@ vec3 place_on(const RectangleLight& light, float x, float y) {
   return light.corner + x * light.axis_x + y * light.axis_y;
 }
 
+/// A place on the light and its density in 1/sr, which is 0 if there is none.
+struct RectanglePoint {
+  vec3 position;
+  float pdf;
+};
 /// At `place`, along the edges, if the light covers enough of the sphere; else by area.
-void set_rectangle_sample(std::optional<LightSample>& sample, const RectangleLight& light,
-                          const LightReference& ref, vec2 u, vec2 place, float solid_angle) {
-  vec3 p = place_on(light, place.x, place.y);
-  float density = 1 / solid_angle;
-  if (!(solid_angle >= SphericalRectangle::kMinSolidAngle)) {
-    p = place_on(light, u.x * light.length_x, u.y * light.length_y);
-    density = solid_angle_density(ref, p, light.normal, light.area(), light.two_sided);
-    if (!(density > 0)) return sample.reset();
-  }
-  set_towards(sample.emplace(), ref, p, light.point_error, light.normal, light.emission, density);
+[[gnu::always_inline]] inline RectanglePoint point_on(const RectangleLight& light, const LightReference& ref,
+                                                      vec2 u, vec2 place, float solid_angle) {
+  if (solid_angle >= SphericalRectangle::kMinSolidAngle)
+    return {place_on(light, place.x, place.y), 1 / solid_angle};
+  vec3 p = place_on(light, u.x * light.length_x, u.y * light.length_y);
+  return {p, solid_angle_density(ref, p, light.normal, light.area(), light.two_sided)};
 }
 
 } // namespace
@@ -90,8 +91,9 @@ void set_rectangle_sample(std::optional<LightSample>& sample, const RectangleLig
 std::optional<LightSample> RectangleLight::sample(const LightReference& ref, vec2 u) const {
   if (!faces(ref, corner, normal, two_sided)) return std::nullopt;
   SphericalRectangle seen = seen_from(*this, ref);
+  RectanglePoint p = point_on(*this, ref, u, seen.place(u), seen.solid_angle);
   std::optional<LightSample> s;
-  set_rectangle_sample(s, *this, ref, u, seen.place(u), seen.solid_angle);
+  if (p.pdf > 0) set_towards(s.emplace(), ref, p.position, point_error, normal, emission, p.pdf);
   return s;
 }
 
@@ -104,61 +106,73 @@ float RectangleLight::pdf(const LightReference& ref, vec3 point, vec3) const {
 
 namespace {
 
-/// Samples of rectangles that wait until there are enough to fill the vector unit.
+/// Samples of rectangles, until there are enough to fill the vector unit.
 class RectangleQueue {
 public:
-  RectangleQueue(std::span<const LightQuery> queries, std::span<std::optional<LightSample>> samples)
-      : queries_(queries), samples_(samples) {}
-  ~RectangleQueue() { flush(); }
-
-  void push(std::uint32_t i) {
-    const LightQuery& query = queries_[i];
+  void push(const LightQuery& query, LightSampleLanes& samples) {
     const RectangleLight& light = std::get<RectangleLight>(*query.light);
     if (!faces(*query.reference, light.corner, light.normal, light.two_sided)) {
-      samples_[i].reset();
+      samples.set(query.lane, std::nullopt);
       return;
     }
     vec3 d = light.corner - query.reference->position;
     const std::size_t n = batch_.count++;
-    index_[n] = i;
+    queries_[n] = &query;
     auto wide = [](float value) { return static_cast<double>(value); };
     batch_.x0[n] = wide(glm::dot(d, light.axis_x)), batch_.y0[n] = wide(glm::dot(d, light.axis_y));
     batch_.z[n] = wide(std::abs(glm::dot(d, light.normal)));
     batch_.length_x[n] = wide(light.length_x), batch_.length_y[n] = wide(light.length_y);
     batch_.u[n] = wide(query.u.x), batch_.v[n] = wide(query.u.y);
-    if (batch_.count == RectangleBatch::kSize) flush();
+  }
+
+  void sample(LightSampleLanes& samples) {
+    sample_rectangles(batch_);
+    for (std::size_t n = 0; n < batch_.count; ++n) {
+      const LightQuery& query = *queries_[n];
+      const RectangleLight& light = std::get<RectangleLight>(*query.light);
+      const vec2 place(static_cast<float>(batch_.x[n]), static_cast<float>(batch_.y[n]));
+      RectanglePoint p =
+          point_on(light, *query.reference, query.u, place, static_cast<float>(batch_.solid_angle[n]));
+      const std::size_t i = query.lane;
+      samples.pdf[i] = p.pdf;
+      samples.point.set(i, p.position);
+      samples.point_error.set(i, light.point_error);
+      samples.point_normal.set(i, light.normal);
+      samples.radiance.set(i, light.emission);
+      samples.infinite[i] = 0;
+      samples.delta[i] = false;
+    }
   }
 
 private:
-  void flush() {
-    sample_rectangles(batch_);
-    for (std::size_t n = 0; n < batch_.count; ++n) {
-      const LightQuery& query = queries_[index_[n]];
-      const RectangleLight& light = std::get<RectangleLight>(*query.light);
-      set_rectangle_sample(samples_[index_[n]], light, *query.reference, query.u,
-                           {static_cast<float>(batch_.x[n]), static_cast<float>(batch_.y[n])},
-                           static_cast<float>(batch_.solid_angle[n]));
-    }
-    batch_.count = 0;
-  }
-
-  std::span<const LightQuery> queries_;
-  std::span<std::optional<LightSample>> samples_;
+  static_assert(RectangleBatch::kSize >= kLaneCount);
   RectangleBatch batch_;
-  std::array<std::uint32_t, RectangleBatch::kSize> index_;
+  Lanes<const LightQuery*> queries_;
 };
 
 } // namespace
 
-void sample_lights(std::span<const LightQuery> queries, std::span<std::optional<LightSample>> samples) {
-  RectangleQueue rectangles(queries, samples);
-  for (std::uint32_t i = 0; i < queries.size(); ++i) {
-    const LightQuery& query = queries[i];
+void LightSampleLanes::set(std::size_t i, const std::optional<LightSample>& sample) {
+  infinite[i] = 0;
+  pdf[i] = sample ? sample->pdf : 0;
+  if (!sample) return;
+  point.set(i, sample->point);
+  point_error.set(i, sample->point_error);
+  point_normal.set(i, sample->point_normal);
+  direction.set(i, sample->direction);
+  radiance.set(i, sample->radiance);
+  infinite[i] = sample->infinite ? 1 : 0;
+  delta[i] = sample->delta;
+}
+
+void sample_lights(std::span<const LightQuery> queries, LightSampleLanes& samples) {
+  RectangleQueue rectangles;
+  for (const LightQuery& query : queries)
     if (std::holds_alternative<RectangleLight>(*query.light))
-      rectangles.push(i);
+      rectangles.push(query, samples);
     else
-      samples[i] = sample_light(*query.light, *query.reference, query.u);
-  }
+      samples.set(query.lane, sample_light(*query.light, *query.reference, query.u));
+  rectangles.sample(samples);
 }
 
 std::optional<LightSample> SphereLight::sample(const LightReference& ref, vec2 u) const {

@@ -2,8 +2,7 @@
 // How paths leave their vertices: scattered directions of many, Russian roulette and the rays from there,
 // side by side.
 
-#include "core/lanes.h"
-#include "render/transport.h"
+#include "render/vertex_lanes.h"
 
 namespace candela {
 
@@ -17,23 +16,19 @@ struct Roulette {
   static Roulette at(const PathSettings& settings, int depth);
 };
 
-/// Up to kLaneCount of them. World space but for `local`.
+/// A direction from each lane of VertexLanes, at most.
 struct OnwardLanes {
-  std::size_t count = 0;
   // What is asked:
-  Vec3Lanes normal, geometric_normal; ///< shading and geometric, of the vertex
-  Vec3Lanes position, position_error;
-  Lanes<float> side;     ///< Vertex::side
-  Vec3Lanes local;       ///< where to, about the shading normal
-  Lanes<float> cosines;  ///< of both directions with the shading normal, multiplied: > 0 where it reflects
-  Vec3Lanes throughput;  ///< of the path with this direction, before roulette
+  Vec3Lanes wi_local;    ///< unit, about the normal
+  Vec3Lanes throughput;  ///< of the path with this direction, before roulette; after it when chosen
   Lanes<float> unscaled; ///< what roulette multiplies it by, see PathTracer::Path
   Lanes<float> u;        ///< roulette's number
-  // What comes of it; throughput, too:
+  // What comes of it:
   Vec3Lanes origin, direction;
   Lanes<std::int32_t> goes_on; ///< 1 or 0: ended by roulette, or through the surface
 
-  void choose(const Roulette& roulette);
+  /// In all lanes; what comes of those where nothing was asked means nothing.
+  void choose(const VertexLanes& vertices, const Roulette& roulette);
 };
 
 } // namespace candela

@@ -22,7 +22,9 @@ int longest_path(const PathSettings& settings) {
 }
 
 PathTracer::PathTracer(const RenderScene& scene, const PathSettings& settings)
-    : scene_(scene), settings_(settings), last_depth_(longest_path(settings)) {}
+    : scene_(scene), settings_(settings), last_depth_(longest_path(settings)) {
+  branched_.reserve(kLaneCount); // draws point into it
+}
 
 /// With segments numbered by depth = 1, 2, ... the estimate is the sum over vertices of
 ///   throughput x (emission met by chance, weighted + light aimed at, weighted).
@@ -37,15 +39,18 @@ void PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
     path.split = starts[i].sampler.sample() == 0;
   }
   for (int depth = 1; depth <= last_depth_ && !paths_.empty(); ++depth) {
-    meet_surfaces(depth);
-    aim(depth);
-    choose_directions(depth);
+    intersect(depth);
+    meet_emitters(depth);
+    next_.clear();
+    if (depth < last_depth_)
+      for (std::size_t begin = 0; begin < arrived_.size(); begin += kLaneCount)
+        stop_at(begin, std::min(kLaneCount, arrived_.size() - begin), depth);
     std::swap(paths_, next_);
   }
   counts += counts_;
 }
 
-void PathTracer::meet_surfaces(int depth) {
+void PathTracer::intersect(int depth) {
   arrived_.clear();
   missed_.clear();
   hits_.resize(paths_.size());
@@ -57,37 +62,66 @@ void PathTracer::meet_surfaces(int depth) {
       missed_.push_back(&path);
   }
   if (shows_depth(settings_, depth)) meet_background(depth);
-  stops_.clear();
+}
+
+/// What happens to paths on arrival. Before all else, for emission and light that is aimed at are added up,
+/// and their order must not depend on which paths share lanes.
+void PathTracer::meet_emitters(int depth) {
   for (std::size_t i = 0; i < arrived_.size(); ++i) {
+    const SurfaceMaterial& material = scene_.material(scene_.geometry().material_of(hits_[i]));
+    if (!material.emissive && !material.absorbing) continue;
     Path& path = *arrived_[i];
-    Stop& stop = stops_.emplace_back(path, scene_, hits_[i]);
-    const Vertex& vertex = stop.vertex;
-    const SurfaceMaterial& material = *vertex.material;
-    const bool outside = vertex.side > 0;
+    const Surface surface = scene_.geometry().surface(path.ray, hits_[i]);
+    const bool outside = glm::dot(-path.ray.direction, surface.geometric_normal) > 0;
     if (material.absorbing && !outside) // it came through the inside of this body (Beer-Lambert)
       path.throughput *=
-          glm::exp(-material.absorption * glm::length(vertex.surface.position - path.reference.position));
-    if (material.emissive && (outside || material.two_sided_emission)) add_emission(path, vertex, depth);
-    if (depth == last_depth_ || !vertex.scatters()) {
-      stops_.pop_back();
-      continue;
-    }
-    if (material.diffuse_texture != nullptr) stop.textured = evaluate_bsdf(material, vertex.surface);
-    stop.specular = bsdf_delta_probability(stop.bsdf(), vertex.wo_local) >= 1;
-    prepare_aiming(stop);
-    stop.branches = path.split || stop.specular ? 1 : settings_.split;
-    path.split |= !stop.specular;
+          glm::exp(-material.absorption * glm::length(surface.position - path.reference.position));
+    if (material.emissive && (outside || material.two_sided_emission))
+      add_emission(path, surface, material.emission, depth);
   }
 }
 
-/// What lights need to know of a stop.
-void PathTracer::prepare_aiming(Stop& stop) const {
-  const Vertex& vertex = stop.vertex;
-  LightReference& reference = stop.vertex.reference;
+/// Stops the paths that arrived at hits_[begin ...] there: aims at lights, and sends on those that go on.
+void PathTracer::stop_at(std::size_t begin, std::size_t count, int depth) {
+  Lanes<const Ray*> rays;
+  for (std::size_t i = 0; i < count; ++i) rays[i] = &arrived_[begin + i]->ray;
+  vertices_.meet(scene_, {rays.data(), count}, std::span(hits_).subspan(begin, count));
+  stops_.clear();
+  seekers_.count = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!vertices_.scatters(i)) continue;
+    Path& path = *arrived_[begin + i];
+    const Bsdf& bsdf = vertices_.bsdf(i);
+    const bool specular = bsdf_delta_probability(bsdf, vertices_.wo_local[i]) >= 1;
+    const int branches = path.split || specular ? 1 : settings_.split;
+    path.split |= !specular;
+    stops_.push_back({&path, i, branches});
+    if (specular) continue; // there is nothing that could be aimed from
+    prepare_aiming(i);
+    seekers_.lane[seekers_.count++] = i;
+    seekers_.sampler[i] = &path.sampler;
+    seekers_.scattered[i] = branches;
+  }
+  if (shows_depth(settings_, depth + 1)) {
+    aim_at_lights(scene_, vertices_, seekers_, settings_, counts_);
+    for (std::uint32_t i : std::span(seekers_.lane.data(), seekers_.count)) {
+      const Path& path = *arrived_[begin + i];
+      results_[path.result].add_aimed(path.throughput * seekers_.light[i], depth + 1);
+    }
+  }
+  for (std::uint32_t branch = 0; leave(branch, depth); ++branch) {}
+}
+
+/// What lights need to know of a vertex.
+void PathTracer::prepare_aiming(std::size_t i) {
+  LightReference& reference = vertices_.reference[i];
+  const Bsdf& bsdf = vertices_.bsdf(i);
   reference.also_by_chance = settings_.light_sampling == LightSampling::mis;
-  if (!scene_.all_lights().is_choice() || std::holds_alternative<Diffuse>(stop.bsdf())) return;
-  reference.gloss = gloss_of(stop.bsdf(), vertex.wo_local);
-  reference.mirrored = vertex.frame.to_world(reflect_about_normal(vertex.wo_local));
+  reference.gloss = {};
+  if (!scene_.all_lights().is_choice() || std::holds_alternative<Diffuse>(bsdf)) return;
+  const vec3 wo = vertices_.wo_local[i];
+  reference.gloss = gloss_of(bsdf, wo);
+  reference.mirrored = Basis::from_normal(vertices_.normal[i]).to_world(reflect_about_normal(wo));
 }
 
 /// Weight of a light met by chance, given the density (1/sr) with which aiming would have found it.
@@ -129,109 +163,84 @@ void PathTracer::add_background(const Path& path, std::uint32_t light, vec3 radi
   results_[path.result].add(path.throughput * radiance * weight_by_chance(path, aimed), depth);
 }
 
-void PathTracer::add_emission(const Path& path, const Vertex& vertex, int depth) {
+void PathTracer::add_emission(const Path& path, const Surface& surface, vec3 emission, int depth) {
   if (!shows_depth(settings_, depth)) return;
   float aimed = 0;
   if (needs_aimed_pdf(path)) {
-    std::uint32_t i = scene_.light_of(vertex.surface.emitter);
+    std::uint32_t i = scene_.light_of(surface.emitter);
     if (i != kNoLight)
       aimed = scene_.all_lights().pmf(path.reference, i) *
-              light_pdf(scene_.lights()[i], path.reference, vertex.surface.position, path.ray.direction);
+              light_pdf(scene_.lights()[i], path.reference, surface.position, path.ray.direction);
   }
-  results_[path.result].add(path.throughput * vertex.material->emission * weight_by_chance(path, aimed),
-                            depth);
+  results_[path.result].add(path.throughput * emission * weight_by_chance(path, aimed), depth);
 }
 
-/// Direct light at the stops.
-void PathTracer::aim(int depth) {
-  if (!shows_depth(settings_, depth + 1)) return;
-  seekers_.clear();
-  for (const Stop& stop : stops_)
-    if (!stop.specular) seekers_.push_back({&stop.vertex, &stop.bsdf(), &stop.path->sampler, stop.branches});
-  aim_at_lights(scene_, seekers_, settings_, counts_);
-  auto seeker = seekers_.begin();
-  for (const Stop& stop : stops_)
-    if (!stop.specular)
-      results_[stop.path->result].add_aimed(stop.path->throughput * (seeker++)->light, depth + 1);
-}
-
-/// The paths that go on, into next_.
-void PathTracer::choose_directions(int depth) {
-  next_.clear();
-  tries_.clear();
-  if (depth + 1 > last_depth_) return; // nothing beyond matters
-  std::size_t split = 0;
-  for (const Stop& stop : stops_)
-    if (stop.branches > 1) split += static_cast<std::size_t>(stop.branches);
+/// Sends the stops' paths on, those that split once more for each branch. False where none has so many.
+bool PathTracer::leave(std::uint32_t branch, int depth) {
+  Lanes<const Stop*> from;
+  Lanes<Sampler::Draw> draws;
+  std::size_t count = 0;
   branched_.clear();
-  branched_.reserve(split); // draws_ point into it
-  draws_.clear();
   for (const Stop& stop : stops_) {
     const auto branches = static_cast<std::uint32_t>(stop.branches);
-    for (std::uint32_t k = 0; k < branches; ++k) {
-      const Sampler& own = stop.path->sampler;
-      tries_.push_back(&stop);
-      draws_.push_back({branches > 1 ? &branched_.emplace_back(own.branch(k, branches)) : &own, 0});
-    }
+    if (branch >= branches) continue;
+    const Sampler& own = stop.path->sampler;
+    from[count] = &stop;
+    draws[count++] = {branches > 1 ? &branched_.emplace_back(own.branch(branch, branches)) : &own, 0};
   }
-  const std::size_t count = tries_.size();
-  disc_.resize(count), lobe_u_.resize(count), roulette_u_.resize(count);
-  Sampler::get_2d(draws_, Dimension::bsdf_direction, disc_);
-  sample_uniform_discs(disc_);
-  Sampler::get_1d(draws_, Dimension::bsdf_lobe, lobe_u_);
-  Sampler::get_1d(draws_, Dimension::russian_roulette, roulette_u_);
-  const Roulette roulette = Roulette::at(settings_, depth);
-  for (std::size_t begin = 0; begin < count; begin += kLaneCount)
-    leave(begin, std::min(kLaneCount, count - begin), roulette);
-}
+  if (count == 0) return false;
+  Lanes<vec2> disc;
+  Lanes<float> lobe_u, roulette_u;
+  const std::span<const Sampler::Draw> asked(draws.data(), count);
+  Sampler::get_2d(asked, Dimension::bsdf_direction, disc);
+  Sampler::get_1d(asked, Dimension::bsdf_lobe, lobe_u);
+  Sampler::get_1d(asked, Dimension::russian_roulette, roulette_u);
+  sample_uniform_discs({disc.data(), count});
 
-/// Follows those of the tries that go on.
-void PathTracer::leave(std::size_t begin, std::size_t count, const Roulette& roulette) {
-  OnwardLanes& lanes = onward_;
-  lanes.count = 0;
-  for (std::size_t i = begin; i < begin + count; ++i) {
-    const Stop& from = *tries_[i];
-    const Vertex& vertex = from.vertex;
-    auto s =
-        sample_direction(from.bsdf(), vertex.wo_local, {disc_[i], lobe_u_[i]}, settings_.direction_sampling);
+  /// A direction in onward_.
+  struct Leaving {
+    std::uint32_t k; ///< index into from
+    float density;   ///< Path::arrival_density
+    bool delta;
+  };
+  Lanes<Leaving> leaving;
+  std::size_t left = 0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const Stop& stop = *from[k];
+    const std::uint32_t i = stop.lane;
+    auto s = sample_direction(vertices_.bsdf(i), vertices_.wo_local[i], {disc[k], lobe_u[k]},
+                              settings_.direction_sampling);
     if (!s) continue;
-    const auto branches = static_cast<float>(from.branches);
-    const std::size_t k = lanes.count++;
-    leaving_[k] = {i, s->pdf * branches, s->delta};
-    lanes.normal.set(k, vertex.frame.n);
-    lanes.geometric_normal.set(k, vertex.surface.geometric_normal);
-    lanes.position.set(k, vertex.surface.position);
-    lanes.position_error.set(k, vertex.surface.position_error);
-    lanes.side[k] = vertex.side;
-    lanes.local.set(k, s->wi);
-    lanes.cosines[k] = s->wi.z * vertex.wo_local.z;
-    lanes.throughput.set(k, from.path->throughput * s->weight / branches);
-    lanes.unscaled[k] = from.path->roulette_scale * sqr(s->eta) * branches;
-    lanes.u[k] = roulette_u_[i];
+    const auto branches = static_cast<float>(stop.branches);
+    leaving[left++] = {k, s->pdf * branches, s->delta};
+    onward_.wi_local.set(i, s->wi);
+    onward_.throughput.set(i, stop.path->throughput / branches * s->weight);
+    onward_.unscaled[i] = stop.path->roulette_scale * branches * sqr(s->eta);
+    onward_.u[i] = roulette_u[k];
   }
-  lanes.choose(roulette);
+  onward_.choose(vertices_, Roulette::at(settings_, depth));
   // Who survives cannot be predicted.
+  Lanes<std::uint32_t> going;
   std::size_t survivors = 0;
-  std::array<std::uint32_t, kLaneCount> going;
-  for (std::uint32_t k = 0; k < lanes.count; ++k) {
-    going[survivors] = k;
-    survivors += static_cast<std::size_t>(lanes.goes_on[k]);
+  for (std::uint32_t n = 0; n < left; ++n) {
+    going[survivors] = n;
+    survivors += static_cast<std::size_t>(onward_.goes_on[from[leaving[n].k]->lane]);
   }
-  for (std::size_t n = 0; n < survivors; ++n) {
-    const std::size_t k = going[n];
-    const Leaving& leaving = leaving_[k];
-    const Stop& from = *tries_[leaving.attempt];
-    Path& path = next_.emplace_back(*draws_[leaving.attempt].sampler);
-    path.ray.origin = lanes.origin[k];
-    path.ray.direction = lanes.direction[k];
-    path.throughput = lanes.throughput[k];
-    path.roulette_scale = lanes.unscaled[k];
-    path.result = from.path->result;
-    path.split = from.path->split;
-    path.arrived_by_delta = leaving.delta;
-    path.arrival_density = leaving.density;
-    path.reference = from.vertex.reference;
+  for (std::uint32_t n : std::span(going.data(), survivors)) {
+    const Stop& stop = *from[leaving[n].k];
+    const std::uint32_t i = stop.lane;
+    Path& path = next_.emplace_back(*draws[leaving[n].k].sampler);
+    path.ray.origin = onward_.origin[i];
+    path.ray.direction = onward_.direction[i];
+    path.throughput = onward_.throughput[i];
+    path.roulette_scale = onward_.unscaled[i];
+    path.result = stop.path->result;
+    path.split = stop.path->split;
+    path.arrived_by_delta = leaving[n].delta;
+    path.arrival_density = leaving[n].density;
+    path.reference = vertices_.reference[i];
   }
+  return true;
 }
 
 } // namespace candela

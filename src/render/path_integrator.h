@@ -59,32 +59,24 @@ private:
     LightReference reference;
   };
 
-  /// A path at a surface that scatters.
+  /// A path at a surface that scatters, in vertices_.
   struct Stop {
-    Stop(Path& p, const RenderScene& scene, const Hit& hit) : path(&p), vertex(scene, p.ray, hit) {}
-
     Path* path;
-    Vertex vertex;
-    Bsdf textured;         ///< where the material has a texture
-    bool specular = false; ///< there is nothing that could be aimed from
-    int branches = 1;      ///< directions to try
-
-    const Bsdf& bsdf() const {
-      return vertex.material->diffuse_texture != nullptr ? textured : vertex.material->bsdf;
-    }
+    std::uint32_t lane;
+    int branches; ///< directions to try
   };
 
-  void meet_surfaces(int depth);
-  void aim(int depth);
-  void choose_directions(int depth);
+  void intersect(int depth);
+  void meet_emitters(int depth);
+  void stop_at(std::size_t begin, std::size_t count, int depth);
+  void prepare_aiming(std::size_t lane);
+  bool leave(std::uint32_t branch, int depth);
 
-  void prepare_aiming(Stop& stop) const;
   void meet_background(int depth);
   void add_background(const Path& path, std::uint32_t light, vec3 radiance, float pdf, int depth);
-  void add_emission(const Path& path, const Vertex& vertex, int depth);
+  void add_emission(const Path& path, const Surface& surface, vec3 emission, int depth);
   bool needs_aimed_pdf(const Path& path) const;
   float weight_by_chance(const Path& path, float aimed_pdf) const;
-  void leave(std::size_t begin, std::size_t count, const Roulette& roulette);
 
   const RenderScene& scene_;
   PathSettings settings_;
@@ -98,21 +90,13 @@ private:
   std::vector<EnvironmentMap::Place> places_; ///< parallel to missed_
   std::vector<Path*> arrived_;
   std::vector<Hit> hits_; ///< parallel to arrived_
+
+  // Of the lanes in flight.
+  VertexLanes vertices_;
   std::vector<Stop> stops_;
-  std::vector<LightSeeker> seekers_;
-  std::vector<const Stop*> tries_;   ///< directions to try, by where from
-  std::vector<Sampler> branched_;    ///< of tries that split a path
-  std::vector<Sampler::Draw> draws_; ///< parallel to tries_, as are these
-  std::vector<vec2> disc_;           ///< BsdfU::disc
-  std::vector<float> lobe_u_, roulette_u_;
-  OnwardLanes onward_;
-  /// Of a direction in onward_.
-  struct Leaving {
-    std::size_t attempt; ///< index into tries_
-    float density;       ///< Path::arrival_density
-    bool delta;
-  };
-  Lanes<Leaving> leaving_;
+  LightSeekers seekers_;
+  OnwardLanes onward_{};          ///< all of it is computed with, used or not
+  std::vector<Sampler> branched_; ///< of paths that split
 };
 
 } // namespace candela

@@ -88,7 +88,7 @@ private:
 
   /// Makes the camera rays.
   void start(std::span<const SampleIndex> indices) {
-    starts_.assign(indices.size(), {Ray(), sampler_});
+    starts_.resize(indices.size(), {Ray(), sampler_});
     draws_.clear();
     for (std::size_t i = 0; i < indices.size(); ++i) {
       starts_[i].sampler.start(indices[i].pixel, indices[i].sample);

@@ -25,21 +25,14 @@ bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler,
   return false;
 }
 
-float visibility(const RenderScene& scene, const Surface& from, const LightSample& light, RayCounts& counts) {
+float visibility(const RenderScene& scene, const Ray& towards, vec3 target, bool infinite,
+                 RayCounts& counts) {
   const Accel& accel = scene.geometry().accel();
-  Ray ray = spawn_ray(from, light.direction);
-  vec3 target(0);
-  if (!light.infinite) {
-    // Both ends are moved off their surfaces by their error bounds, so what is left must be free but for what
-    // the distance adds to the rounding of t.
-    target = offset_ray_origin(light.point, light.point_error, light.point_normal, -light.direction);
-    ray.direction = target - ray.origin;
-    ray.t_max = 1 - gamma_bound(16);
-  }
   if (!scene.has_transparency()) {
     ++counts.shadow;
-    return accel.occluded(ray) ? 0.0f : 1.0f;
+    return accel.occluded(towards) ? 0.0f : 1.0f;
   }
+  Ray ray = towards;
   float through = 1;
   for (std::uint32_t i = 0; i < kMaxCrossings; ++i) {
     ++counts.shadow;
@@ -49,7 +42,7 @@ float visibility(const RenderScene& scene, const Surface& from, const LightSampl
     if (through <= 0) return 0;
     Surface s = scene.geometry().surface(ray, *hit);
     ray.origin = offset_ray_origin(s.position, s.position_error, s.geometric_normal, ray.direction);
-    if (!light.infinite) ray.direction = target - ray.origin;
+    if (!infinite) ray.direction = target - ray.origin;
   }
   return 0;
 }

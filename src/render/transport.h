@@ -16,9 +16,9 @@ inline Ray spawn_ray(const Surface& s, vec3 w) {
 /// crossing has a random number of its own. The ray then starts behind the last one that it passed.
 bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit, RayCounts& counts);
 
-/// Share of the light that comes through between a surface point and a light sample: 0 or 1, or the product
-/// of what the transparent surfaces between let pass.
-float visibility(const RenderScene& scene, const Surface& from, const LightSample& light, RayCounts& counts);
+/// Share of the light that comes through where the ray goes: 0 or 1, or the product of what the transparent
+/// surfaces there let pass. The ray leads to t = 1 at `target`, or on for ever if `infinite`.
+float visibility(const RenderScene& scene, const Ray& ray, vec3 target, bool infinite, RayCounts& counts);
 
 /// Weight of the strategy with density `mine` (> 0) against the other's, numbers of samples included (Veach
 /// 1997, section 9.2).
@@ -32,10 +32,10 @@ inline float mis_weight(MisHeuristic how, float mine, float other) {
 /// black slivers along their silhouettes.
 inline vec3 visible_normal(vec3 shading_normal, vec3 wo, float side) {
   constexpr float kGrazing = 1e-4f; // cosine
-  const vec3 viewer = side > 0 ? wo : -wo;
-  const float cosine = glm::dot(shading_normal, viewer);
-  if (cosine >= kGrazing) return shading_normal;
-  return glm::normalize(shading_normal + (kGrazing - cosine) * viewer);
+  vec3 viewer = select(side > 0, wo, -wo);
+  float cosine = glm::dot(shading_normal, viewer);
+  vec3 bent = glm::normalize(shading_normal + (kGrazing - cosine) * viewer);
+  return select(cosine >= kGrazing, shading_normal, bent);
 }
 
 /// A hit made ready for scattering.

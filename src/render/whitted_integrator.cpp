@@ -59,9 +59,13 @@ private:
       if (depth == last_depth_ || !vertex.scatters()) return;
       Bsdf bsdf = material.diffuse_texture != nullptr ? evaluate_bsdf(material, surface) : material.bsdf;
       if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1) {
-        LightSeeker seeker{&vertex, &bsdf, &sampler_, 0};
-        aim_at_lights(scene_, {&seeker, 1}, settings_, counts_);
-        sample_.add_aimed(path.throughput * seeker.light, depth + 1);
+        vertices_.set_one(vertex, bsdf);
+        seekers_.count = 1;
+        seekers_.lane[0] = 0;
+        seekers_.sampler[0] = &sampler_;
+        seekers_.scattered[0] = 0;
+        aim_at_lights(scene_, vertices_, seekers_, settings_, counts_);
+        sample_.add_aimed(path.throughput * seekers_.light[0], depth + 1);
       }
       if (!leave(path, vertex, bsdf, depth)) return;
     }
@@ -124,6 +128,9 @@ private:
   RayCounts& counts_;
   int last_depth_;
   PathSample sample_;
+  // Of the vertex in hand:
+  VertexLanes vertices_;
+  LightSeekers seekers_;
 };
 
 } // namespace

@@ -128,7 +128,7 @@ TEST(Bsdf, EdgesOfTheSquareAreHarmless) {
       for (float x : ticks)
         for (float y : ticks)
           for (float z : ticks) {
-            std::optional<BsdfSample> s = bsdf_sample(m.bsdf, wo, {x, y, z});
+            std::optional<BsdfSample> s = bsdf_sample(m.bsdf, wo, vec3(x, y, z));
             if (!s) continue;
             EXPECT_TRUE(is_finite(s->wi) && is_finite(s->weight) && std::isfinite(s->pdf) && s->pdf > 0)
                 << m.name;

@@ -15,7 +15,7 @@ Sides by_sampling(const Bsdf& bsdf, vec3 wo) {
   Sides s;
   constexpr int kSteps = 100000;
   for (int i = 0; i < kSteps; ++i) {
-    auto sample = bsdf_sample(bsdf, wo, {0.3f, 0.6f, (static_cast<float>(i) + 0.5f) / kSteps});
+    auto sample = bsdf_sample(bsdf, wo, vec3(0.3f, 0.6f, (static_cast<float>(i) + 0.5f) / kSteps));
     if (!sample || !sample->delta) continue;
     (same_hemisphere(wo, sample->wi) ? s.reflected : s.refracted) += sample->weight / float{kSteps};
   }

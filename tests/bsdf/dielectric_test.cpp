@@ -127,11 +127,11 @@ TEST(Dielectric, LosesNoLight) {
 TEST(Dielectric, RadianceIsScaledOnTheWayIn) {
   // Looking into glass from air at the normal: radiance from inside is spread over more solid angle outside.
   Dielectric glass{1.5f, vec3(0.8f, 1, 1)};
-  std::optional<BsdfSample> out = glass.sample({0, 0, 1}, {0.5f, 0.5f, 0.999f});
+  std::optional<BsdfSample> out = glass.sample({0, 0, 1}, vec3(0.5f, 0.5f, 0.999f));
   ASSERT_TRUE(out);
   EXPECT_NEAR(out->weight.y, 1 / 2.25, 1e-6);
   EXPECT_NEAR(out->weight.x, 0.8 / 2.25, 1e-6);
-  std::optional<BsdfSample> in = glass.sample({0, 0, -1}, {0.5f, 0.5f, 0.999f});
+  std::optional<BsdfSample> in = glass.sample({0, 0, -1}, vec3(0.5f, 0.5f, 0.999f));
   ASSERT_TRUE(in);
   EXPECT_NEAR(in->weight.y, 2.25, 1e-6);
   EXPECT_EQ(in->wi, vec3(0, 0, 1));

@@ -114,29 +114,37 @@ TEST(Light, ManySamplesAtOnceAreTheSameToTheBit) {
                           rectangle({-1, 2, -0.5f}, {2, 0, 0}, {0, 0, 1}, true),
                           rectangle({0, 40, 0}, {0.05f, 0, 0}, {0, 0, 0.05f}), // far: sampled by area
                           triangle({-1, 2, -0.5f}, {2, 0.5f, 0}, {0.5f, 0, 1.5f}),
-                          SphereLight{{0, 3, 0}, 0.5f, {1, 2, 3}, false}};
+                          SphereLight{{0, 3, 0}, 0.5f, {1, 2, 3}, false},
+                          PointLight{{0, 5, 0}, vec3(3)},
+                          DirectionalLight{{0, -1, 0}, vec3(2)}};
   std::mt19937_64 random(fresh_seed());
   SCOPED_TRACE(seed_note());
   std::uniform_real_distribution<float> place(-2, 4), unit(0, kOneMinusEpsilon);
-  std::vector<LightReference> references(300);
-  std::vector<LightQuery> queries;
-  for (LightReference& reference : references) {
-    reference.position = {place(random), place(random), place(random)};
-    queries.push_back(
-        {&lights[queries.size() % std::size(lights)], &reference, {unit(random), unit(random)}});
-  }
-  std::vector<std::optional<LightSample>> samples(queries.size(), LightSample());
-  sample_lights(queries, samples);
   int seen = 0;
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    auto one = sample_light(*queries[i].light, *queries[i].reference, queries[i].u);
-    ASSERT_EQ(samples[i].has_value(), one.has_value());
-    if (!one) continue;
-    ++seen;
-    EXPECT_EQ(samples[i]->direction, one->direction);
-    EXPECT_EQ(samples[i]->point, one->point);
-    EXPECT_EQ(samples[i]->pdf, one->pdf);
-    EXPECT_EQ(samples[i]->radiance, one->radiance);
+  for (int repeat = 0; repeat < 10; ++repeat) {
+    const std::size_t count = repeat == 0 ? kLaneCount : 33;
+    std::vector<LightReference> references(count);
+    std::vector<LightQuery> queries;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      references[k].position = {place(random), place(random), place(random)};
+      const auto lane = static_cast<std::uint32_t>(count) - 1 - k;
+      queries.push_back({&lights[k % std::size(lights)], &references[k], {unit(random), unit(random)}, lane});
+    }
+    LightSampleLanes samples{};
+    sample_lights(queries, samples);
+    for (const LightQuery& query : queries) {
+      auto one = sample_light(*query.light, *query.reference, query.u);
+      ASSERT_EQ(samples.pdf[query.lane], one ? one->pdf : 0);
+      if (!one) continue;
+      ++seen;
+      EXPECT_EQ(samples.point[query.lane], one->point);
+      EXPECT_EQ(samples.point_error[query.lane], one->point_error);
+      EXPECT_EQ(samples.point_normal[query.lane], one->point_normal);
+      EXPECT_EQ(samples.radiance[query.lane], one->radiance);
+      EXPECT_EQ(samples.infinite[query.lane], one->infinite);
+      EXPECT_EQ(samples.delta[query.lane], one->delta);
+      if (one->infinite) { EXPECT_EQ(samples.direction[query.lane], one->direction); }
+    }
   }
   EXPECT_GT(seen, 100);
 }

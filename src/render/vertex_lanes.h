@@ -1,0 +1,35 @@
+#pragma once
+// Hits of many rays made ready for scattering, side by side: what Vertex is of one.
+
+#include "core/lanes.h"
+#include "render/transport.h"
+
+#include <span>
+
+namespace candela {
+
+/// Up to kLaneCount of them.
+struct VertexLanes {
+  std::size_t count = 0;
+  Vec3Lanes position, position_error; ///< as Surface has them
+  Vec3Lanes geometric_normal;
+  Vec3Lanes normal;   ///< visible_normal
+  Vec3Lanes wo_local; ///< unit, where the ray came from, about the normal
+  Lanes<float> side;  ///< cosine of wo with the geometric normal: > 0 outside
+  Lanes<LightReference> reference;
+  Lanes<const SurfaceMaterial*> material;
+  Lanes<Bsdf> textured; ///< where the material has a texture
+
+  /// Lane i is where rays[i] met hits[i].
+  void meet(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits);
+  /// Lane 0 is `vertex`, with this BSDF, and there is no other.
+  void set_one(const Vertex& vertex, const Bsdf& bsdf);
+
+  const Bsdf& bsdf(std::size_t i) const {
+    return material[i]->diffuse_texture != nullptr ? textured[i] : material[i]->bsdf;
+  }
+  /// As Vertex::scatters().
+  bool scatters(std::size_t i) const { return wo_local.z[i] * side[i] > 0; }
+};
+
+} // namespace candela
