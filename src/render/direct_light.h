@@ -16,10 +16,51 @@ struct LightSeekers {
   Lanes<vec3> light;             ///< what comes of it: the estimate of f |cos| x radiance
 };
 
-/// The estimate from all lights, by `settings.light_samples` shadow rays a vertex; each weighted against the
-/// `scattered` directions where the settings say mis. The lights that no direction meets by chance are aimed
-/// at under every strategy, with weight 1. What one seeker gets does not depend on the others.
-void aim_at_lights(const RenderScene& scene, const VertexLanes& vertices, LightSeekers& seekers,
-                   const PathSettings& settings, RayCounts& counts);
+/// For one thread; keep it, for it keeps its memory.
+class DirectLight {
+public:
+  /// The estimate from all lights, by `settings.light_samples` shadow rays a vertex; each weighted against
+  /// the `scattered` directions where the settings say mis. The lights that no direction meets by chance are
+  /// aimed at under every strategy, with weight 1. What one seeker gets does not depend on the others.
+  void aim(const RenderScene& scene, const VertexLanes& vertices, LightSeekers& seekers,
+           const PathSettings& settings, RayCounts& counts);
+
+private:
+  /// What is aimed along, by the lane of the vertex.
+  struct AimedLanes {
+    Vec3Lanes direction; ///< unit, to the light
+    Vec3Lanes wi_local;  ///< the same about the normal
+    Lanes<float> cosine; ///< with the geometric normal, on wo's side; all that is aimed from reflects
+    // The shadow ray:
+    Vec3Lanes origin;
+    Vec3Lanes target; ///< its end, off the light's surface; unused where the light is infinite
+  };
+  /// A light sample that waits to be looked at, and what it brings if nothing is between.
+  struct ShadowRay {
+    Ray ray;
+    vec3 target;
+    bool infinite;
+    std::uint32_t lane;
+    vec3 light;
+  };
+
+  void draw(const LightSeekers& seekers, std::uint32_t index, int samples);
+  void choose(const RenderScene& scene, const LightSelection& selection, const VertexLanes& vertices,
+              const LightSeekers& seekers);
+  void weigh(const VertexLanes& vertices, const LightSeekers& seekers, const PathSettings& settings);
+  void set_ray(ShadowRay& shadow) const;
+  static void set_aims(const VertexLanes& vertices, const LightSampleLanes& lights, AimedLanes& aims);
+
+  // Of one light sample for each seeker:
+  std::vector<Sampler> branched_;
+  Lanes<vec2> u_; ///< by seeker; all else by lane or in the order of asking
+  Lanes<LightQuery> queries_;
+  std::size_t queried_ = 0;
+  Lanes<float> pmf_;
+  LightSampleLanes lights_{}; ///< set_aims() looks at all
+  AimedLanes aims_;
+  Lanes<ShadowRay> shadows_;
+  std::size_t shadow_count_ = 0;
+};
 
 } // namespace candela

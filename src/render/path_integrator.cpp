@@ -88,6 +88,7 @@ void PathTracer::stop_at(std::size_t begin, std::size_t count, int depth) {
   vertices_.meet(scene_, {rays.data(), count}, std::span(hits_).subspan(begin, count));
   stops_.clear();
   seekers_.count = 0;
+  several_lobes_ = false;
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!vertices_.scatters(i)) continue;
     Path& path = *arrived_[begin + i];
@@ -95,6 +96,7 @@ void PathTracer::stop_at(std::size_t begin, std::size_t count, int depth) {
     const bool specular = bsdf_delta_probability(bsdf, vertices_.wo_local[i]) >= 1;
     const int branches = path.split || specular ? 1 : settings_.split;
     path.split |= !specular;
+    several_lobes_ |= !std::holds_alternative<Diffuse>(bsdf);
     stops_.push_back({&path, i, branches});
     if (specular) continue; // there is nothing that could be aimed from
     prepare_aiming(i);
@@ -103,7 +105,7 @@ void PathTracer::stop_at(std::size_t begin, std::size_t count, int depth) {
     seekers_.scattered[i] = branches;
   }
   if (shows_depth(settings_, depth + 1)) {
-    aim_at_lights(scene_, vertices_, seekers_, settings_, counts_);
+    direct_light_.aim(scene_, vertices_, seekers_, settings_, counts_);
     for (std::uint32_t i : std::span(seekers_.lane.data(), seekers_.count)) {
       const Path& path = *arrived_[begin + i];
       results_[path.result].add_aimed(path.throughput * seekers_.light[i], depth + 1);
@@ -190,10 +192,10 @@ bool PathTracer::leave(std::uint32_t branch, int depth) {
   }
   if (count == 0) return false;
   Lanes<vec2> disc;
-  Lanes<float> lobe_u, roulette_u;
+  Lanes<float> lobe_u{}, roulette_u;
   const std::span<const Sampler::Draw> asked(draws.data(), count);
   Sampler::get_2d(asked, Dimension::bsdf_direction, disc);
-  Sampler::get_1d(asked, Dimension::bsdf_lobe, lobe_u);
+  if (several_lobes_) Sampler::get_1d(asked, Dimension::bsdf_lobe, lobe_u);
   Sampler::get_1d(asked, Dimension::russian_roulette, roulette_u);
   sample_uniform_discs({disc.data(), count});
 

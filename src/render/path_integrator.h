@@ -94,7 +94,9 @@ private:
   // Of the lanes in flight.
   VertexLanes vertices_;
   std::vector<Stop> stops_;
+  bool several_lobes_ = false; ///< a BSDF at the stops asks for BsdfU::lobe
   LightSeekers seekers_;
+  DirectLight direct_light_;
   OnwardLanes onward_{};          ///< all of it is computed with, used or not
   std::vector<Sampler> branched_; ///< of paths that split
 };

@@ -64,7 +64,7 @@ private:
         seekers_.lane[0] = 0;
         seekers_.sampler[0] = &sampler_;
         seekers_.scattered[0] = 0;
-        aim_at_lights(scene_, vertices_, seekers_, settings_, counts_);
+        direct_light_.aim(scene_, vertices_, seekers_, settings_, counts_);
         sample_.add_aimed(path.throughput * seekers_.light[0], depth + 1);
       }
       if (!leave(path, vertex, bsdf, depth)) return;
@@ -131,6 +131,7 @@ private:
   // Of the vertex in hand:
   VertexLanes vertices_;
   LightSeekers seekers_;
+  DirectLight direct_light_;
 };
 
 } // namespace
