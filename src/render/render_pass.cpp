@@ -193,6 +193,7 @@ public:
   }
 
   void flush(PassResult& result) {
+    if (indices_.empty()) return;
     sampler_.sample(indices_, {samples_.data(), indices_.size()}, result.rays);
     for (std::size_t i = 0; i < indices_.size(); ++i) add(indices_[i], samples_[i], result);
     indices_.clear();
