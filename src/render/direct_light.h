@@ -2,6 +2,7 @@
 // Next-event estimation: light that surface points get straight from a light that was aimed at.
 
 #include "bsdf/direction_sampling.h"
+#include "render/light_lanes.h"
 #include "render/vertex_lanes.h"
 
 namespace candela {

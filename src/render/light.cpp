@@ -1,25 +1,11 @@
 #include "render/light.h"
 
 #include "core/color.h"
+#include "render/light_points.h"
 
 namespace candela {
 
 namespace {
-
-/// From density per area to density per solid angle: r^2 / |cos theta|; 0 where the light is edge-on or shows
-/// the side that does not shine.
-float solid_angle_density(const LightReference& ref, vec3 point, vec3 normal, float area, bool two_sided) {
-  vec3 d = point - ref.position;
-  float distance2 = length_squared(d);
-  float cosine = -glm::dot(normal, d); // times the distance
-  if (two_sided) cosine = std::abs(cosine);
-  if (!(cosine > 0) || !(distance2 > 0)) return 0;
-  return distance2 * std::sqrt(distance2) / (cosine * area);
-}
-
-bool faces(const LightReference& ref, vec3 corner, vec3 normal, bool two_sided) {
-  return two_sided || glm::dot(ref.position - corner, normal) > 0;
-}
 
 /// Of a point of a flat light: its own error, and the rounding of its surface's intersection test as in
 /// Geometry::surface.
@@ -68,24 +54,6 @@ SphericalRectangle seen_from(const RectangleLight& light, const LightReference& 
           light.length_x, light.length_y, ref.position};
 }
 
-vec3 place_on(const RectangleLight& light, float x, float y) {
-  return light.corner + x * light.axis_x + y * light.axis_y;
-}
-
-/// A place on the light and its density in 1/sr, which is 0 if there is none.
-struct RectanglePoint {
-  vec3 position;
-  float pdf;
-};
-/// At `place`, along the edges, if the light covers enough of the sphere; else by area.
-[[gnu::always_inline]] inline RectanglePoint point_on(const RectangleLight& light, const LightReference& ref,
-                                                      vec2 u, vec2 place, float solid_angle) {
-  if (solid_angle >= SphericalRectangle::kMinSolidAngle)
-    return {place_on(light, place.x, place.y), 1 / solid_angle};
-  vec3 p = place_on(light, u.x * light.length_x, u.y * light.length_y);
-  return {p, solid_angle_density(ref, p, light.normal, light.area(), light.two_sided)};
-}
-
 } // namespace
 
 std::optional<LightSample> RectangleLight::sample(const LightReference& ref, vec2 u) const {
@@ -104,109 +72,21 @@ float RectangleLight::pdf(const LightReference& ref, vec3 point, vec3) const {
   return solid_angle_density(ref, point, normal, area(), two_sided);
 }
 
-namespace {
-
-/// Samples of rectangles, until there are enough to fill the vector unit.
-class RectangleQueue {
-public:
-  void push(const LightQuery& query, LightSampleLanes& samples) {
-    const RectangleLight& light = std::get<RectangleLight>(*query.light);
-    if (!faces(*query.reference, light.corner, light.normal, light.two_sided)) {
-      samples.set(query.lane, std::nullopt);
-      return;
-    }
-    vec3 d = light.corner - query.reference->position;
-    const std::size_t n = batch_.count++;
-    queries_[n] = &query;
-    auto wide = [](float value) { return static_cast<double>(value); };
-    batch_.x0[n] = wide(glm::dot(d, light.axis_x)), batch_.y0[n] = wide(glm::dot(d, light.axis_y));
-    batch_.z[n] = wide(std::abs(glm::dot(d, light.normal)));
-    batch_.length_x[n] = wide(light.length_x), batch_.length_y[n] = wide(light.length_y);
-    batch_.u[n] = wide(query.u.x), batch_.v[n] = wide(query.u.y);
-  }
-
-  void sample(LightSampleLanes& samples) {
-    sample_rectangles(batch_);
-    for (std::size_t n = 0; n < batch_.count; ++n) {
-      const LightQuery& query = *queries_[n];
-      const RectangleLight& light = std::get<RectangleLight>(*query.light);
-      const vec2 place(static_cast<float>(batch_.x[n]), static_cast<float>(batch_.y[n]));
-      RectanglePoint p =
-          point_on(light, *query.reference, query.u, place, static_cast<float>(batch_.solid_angle[n]));
-      const std::size_t i = query.lane;
-      samples.pdf[i] = p.pdf;
-      samples.point.set(i, p.position);
-      samples.point_error.set(i, light.point_error);
-      samples.point_normal.set(i, light.normal);
-      samples.radiance.set(i, light.emission);
-      samples.infinite[i] = 0;
-      samples.delta[i] = false;
-    }
-  }
-
-private:
-  static_assert(RectangleBatch::kSize >= kLaneCount);
-  RectangleBatch batch_;
-  Lanes<const LightQuery*> queries_;
-};
-
-} // namespace
-
-void LightSampleLanes::set(std::size_t i, const std::optional<LightSample>& sample) {
-  infinite[i] = 0;
-  pdf[i] = sample ? sample->pdf : 0;
-  if (!sample) return;
-  point.set(i, sample->point);
-  point_error.set(i, sample->point_error);
-  point_normal.set(i, sample->point_normal);
-  direction.set(i, sample->direction);
-  radiance.set(i, sample->radiance);
-  infinite[i] = sample->infinite ? 1 : 0;
-  delta[i] = sample->delta;
-}
-
-void sample_lights(std::span<const LightQuery> queries, LightSampleLanes& samples) {
-  RectangleQueue rectangles;
-  for (const LightQuery& query : queries)
-    if (std::holds_alternative<RectangleLight>(*query.light))
-      rectangles.push(query, samples);
-    else
-      samples.set(query.lane, sample_light(*query.light, *query.reference, query.u));
-  rectangles.sample(samples);
-}
-
 std::optional<LightSample> SphereLight::sample(const LightReference& ref, vec2 u) const {
   vec3 to_center = center - ref.position;
-  float distance2 = length_squared(to_center), radius2 = sqr(radius);
-  vec3 n;
-  float density;
-  if (distance2 >
-      radius2) { // pbrt-v4, section 6.2.4, the angle at the centre without cancellation for small cones
-    float sin2_max = radius2 / distance2;
-    float one_minus_cos_max = one_minus_cos_from_sin2(sin2_max);
-    vec3 local = sample_uniform_cone(u, one_minus_cos_max); // about the direction to the centre
-    float cos_theta = local.z, sin2_theta = 1 - sqr(cos_theta);
-    if (sin2_max < 1e-3f) sin2_theta = local.x * local.x + local.y * local.y;
-    float cos_alpha =
-        sin2_theta / std::sqrt(sin2_max) +
-        cos_theta * safe_sqrt(1 - sin2_theta / sin2_max); // at the centre, from the reference's side
-    float sin_alpha = safe_sqrt(1 - sqr(cos_alpha));
-    float sin_theta = std::sqrt(sin2_theta);
-    vec2 around = sin_theta > 0 ? vec2(local) / sin_theta : vec2(1, 0);
-    Basis frame = Basis::from_normal(to_center / std::sqrt(distance2));
-    n = frame.to_world({around * sin_alpha, -cos_alpha});
-    density = uniform_cone_pdf(one_minus_cos_max);
+  SpherePoint p;
+  if (length_squared(to_center) > sqr(radius)) {
+    p = point_towards(to_center, radius, u);
   } else {
     if (!two_sided) return std::nullopt;
-    n = sample_uniform_sphere(u);
-    density = solid_angle_density(ref, center + radius * n, n, 4 * kPi * radius2, true);
-    if (!(density > 0)) return std::nullopt;
+    p.normal = sample_uniform_sphere(u);
+    p.pdf = solid_angle_density(ref, center + radius * p.normal, p.normal, 4 * kPi * sqr(radius), true);
+    if (!(p.pdf > 0)) return std::nullopt;
   }
-  n = glm::normalize(n);
-  vec3 offset = radius * n;
+  vec3 offset = radius * p.normal;
   std::optional<LightSample> s;
-  set_towards(s.emplace(), ref, center + offset, gamma_bound(6) * (glm::abs(center) + glm::abs(offset)), n,
-              emission, density);
+  set_towards(s.emplace(), ref, center + offset, sphere_point_error(center, offset), p.normal, emission,
+              p.pdf);
   return s;
 }
 

@@ -3,7 +3,6 @@
 
 #include "bsdf/gloss.h"
 #include "core/basis.h"
-#include "core/lanes.h"
 #include "core/ray.h"
 #include "render/environment_map.h"
 #include "sampling/spherical_rectangle.h"
@@ -156,28 +155,6 @@ using Light = std::variant<RectangleLight, TriangleLight, SphereLight, DiscLight
 inline std::optional<LightSample> sample_light(const Light& light, const LightReference& ref, vec2 u) {
   return std::visit([&](const auto& l) { return l.sample(ref, u); }, light);
 }
-/// One of many light samples.
-struct LightQuery {
-  const Light* light;
-  const LightReference* reference;
-  vec2 u;
-  std::uint32_t lane; ///< where its answer goes; no two the same
-};
-/// LightSamples side by side.
-struct LightSampleLanes {
-  Lanes<float> pdf; ///< 0: the light cannot be seen
-  Vec3Lanes point, point_error, point_normal;
-  Vec3Lanes direction; ///< of infinite lights; to the others it is that of `point`
-  Vec3Lanes radiance;
-  Lanes<std::int32_t> infinite; ///< 1 or 0
-  Lanes<bool> delta;
-
-  void set(std::size_t i, const std::optional<LightSample>& sample);
-};
-/// sample_light() of up to kLaneCount, to the bit. Rectangles are done side by side by the vector unit, for a
-/// third of the time.
-void sample_lights(std::span<const LightQuery> queries, LightSampleLanes& samples);
-
 inline float light_pdf(const Light& light, const LightReference& ref, vec3 point, vec3 direction) {
   return std::visit([&](const auto& l) { return l.pdf(ref, point, direction); }, light);
 }

@@ -208,24 +208,23 @@ float LightTree::judge_as(const Node& n, const LightReference& ref, Weights& wei
     // The angle b that the sphere covers: all around for a point in it.
     const float ratio = n.radius[i] * inverse;
     const bool inside = ratio >= 1;
-    const float sin_b = inside ? 0.0f : ratio;
-    const float cos_outside = std::sqrt(std::max(1 - ratio * ratio, 0.0f));
-    const float cos_b = inside ? -1.0f : cos_outside;
+    const float sin_b = select(inside, 0.0f, ratio);
+    const float cos_b = select(inside, -1.0f, std::sqrt(std::max(1 - ratio * ratio, 0.0f)));
     // Off the normals: theta_w - theta_o - theta_b at least.
     const bool among = cos_w >= n.cos_o[i];
-    const float cos_x = among ? 1.0f : cos_w * n.cos_o[i] + sin_w * n.sin_o[i];
-    const float sin_x = among ? 0.0f : sin_w * n.cos_o[i] - cos_w * n.sin_o[i];
-    const float cos_off = cos_x >= cos_b ? 1.0f : cos_x * cos_b + sin_x * sin_b;
+    const float cos_x = select(among, 1.0f, cos_w * n.cos_o[i] + sin_w * n.sin_o[i]);
+    const float sin_x = select(among, 0.0f, sin_w * n.cos_o[i] - cos_w * n.sin_o[i]);
+    const float cos_off = select(cos_x >= cos_b, 1.0f, cos_x * cos_b + sin_x * sin_b);
     // And off the reference's normal.
-    const float cos_in = cos_up >= cos_b ? 1.0f : cos_up * cos_b + sin_up * sin_b;
-    const float shine = cos_off >= n.cos_e[i] ? std::max(cos_off, 0.0f) : 0.0f;
+    const float cos_in = select(cos_up >= cos_b, 1.0f, cos_up * cos_b + sin_up * sin_b);
+    const float shine = select(cos_off >= n.cos_e[i], std::max(cos_off, 0.0f), 0.0f);
     float made = std::max(cos_in, 0.0f);
     if constexpr (kGlossy) {
       const float cos_m = (dx * mirrored.x + dy * mirrored.y + dz * mirrored.z) * inverse;
       const float sin_m = std::sqrt(std::max(1 - cos_m * cos_m, 0.0f));
-      const float cos_near = cos_m >= cos_b ? 1.0f : cos_m * cos_b + sin_m * sin_b;
+      const float cos_near = select(cos_m >= cos_b, 1.0f, cos_m * cos_b + sin_m * sin_b);
       const float off = 1 + gloss.sharpness * (1 - cos_near);
-      made = made > 0 ? gloss.diffuse * made + gloss.peak / (off * off) : 0.0f;
+      made = select(made > 0, gloss.diffuse * made + gloss.peak / (off * off), 0.0f);
     }
     w[i] = n.intensity[i] * shine * made / std::max(d2, n.least_d2[i]);
   }

@@ -2,7 +2,7 @@
 // the light.
 
 #include "core/hash.h"
-#include "render/light.h"
+#include "render/light_lanes.h"
 #include "support/direction_statistics.h"
 #include "support/seed.h"
 
