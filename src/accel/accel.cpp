@@ -103,7 +103,7 @@ struct RefList {
     std::vector<std::size_t> used(chunks, 0);
     std::vector<RangeBounds> bounds_in(chunks);
     auto begin = [&](std::size_t chunk) { return first + count * chunk / chunks; };
-#pragma omp taskloop default(shared) grainsize(4)
+#pragma omp taskloop default(shared) num_tasks(kLoopTasks)
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
       if (stage.cancelled()) continue;
       RangeBounds mine;
@@ -217,7 +217,7 @@ std::unique_ptr<AccelTree> build_tree(const AccelInput& input, std::size_t count
   tree->instances.resize(wide.packs[static_cast<std::size_t>(LeafKind::instance)]);
   constexpr std::size_t kLeavesPerTask = 512;
   std::atomic<bool> given_up{false};
-#pragma omp taskloop default(shared) grainsize(1)
+#pragma omp taskloop default(shared) num_tasks(kLoopTasks)
   for (std::size_t first = 0; first < wide.leaves.size(); first += kLeavesPerTask) {
     if (filling_packs.cancelled()) {
       given_up = true;

@@ -11,6 +11,10 @@ namespace candela::accel_detail {
 enum class StageWork : std::uint32_t { refs = 1, binary = 12, emit = 2, packs = 2 };
 inline constexpr std::uint64_t kWorkPerPrimitive = 17; ///< the sum
 
+/// Tasks of a parallel loop: enough for all threads to end together. A loop of more than 64 tasks a thread is
+/// run by one thread alone (GCC's libgomp, GOMP_taskloop).
+inline constexpr int kLoopTasks = 64;
+
 /// Stages recurse down to subtrees that one task builds; they ask and report at the top of those, so that it
 /// costs nothing, and nothing depends on the answer but whether the tree comes to be. Null: nobody waits.
 class BuildStage {

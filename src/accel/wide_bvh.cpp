@@ -216,7 +216,7 @@ WideBvh collapse(const BinaryBvh& bvh, BuildQuality quality, Progress* progress)
   TopEmitter top(bvh, plan);
   top.emit(bvh.root(), 1);
   std::vector<Fragment>& fragments = top.fragments;
-#pragma omp taskloop default(shared) grainsize(1)
+#pragma omp taskloop default(shared) num_tasks(kLoopTasks)
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     if (stage.cancelled()) continue;
     Fragment& fragment = fragments[i];
@@ -249,7 +249,7 @@ WideBvh collapse(const BinaryBvh& bvh, BuildQuality quality, Progress* progress)
   wide.packs = end.packs;
   wide.nodes.resize(end.node);
   wide.leaves.resize(end.leaf);
-#pragma omp taskloop default(shared) grainsize(1)
+#pragma omp taskloop default(shared) num_tasks(kLoopTasks)
   for (std::size_t i = 0; i < top.order.size(); ++i) {
     WideNode* node = wide.nodes.data() + base[i].node;
     if (!top.order[i].is_fragment) {
