@@ -204,7 +204,7 @@ std::unique_ptr<AccelTree> build_tree(const AccelInput& input, std::size_t count
   if (progress) progress->advance(Accel::build_work(stats.skipped));
   if (used == 0) return tree;
 
-  const BinaryBvh binary = build_binary_bvh(std::move(list.refs), list.bounds,
+  const BinaryBvh binary = build_binary_bvh(input, std::move(list.refs), list.bounds,
                                             !std::has_single_bit(list.kinds), quality, progress);
   WideBvh wide = collapse(binary, quality, progress);
   tree->root = wide.root;

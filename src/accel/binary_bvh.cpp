@@ -2,6 +2,7 @@
 
 #include "accel/build_stage.h"
 #include "accel/collapse_plan.h"
+#include "accel/spatial_split.h"
 #include "accel/split.h"
 
 #include <algorithm>
@@ -24,16 +25,21 @@ struct Sides {
   RangeBounds left, right;
   std::uint32_t left_count;
   Buffers buffers; ///< of both
+  std::uint32_t left_capacity, right_count;
 };
+
+/// Spatial splits may double one ref in so many, which keeps all within 64 bytes a triangle.
+constexpr std::uint32_t kRefsPerDouble = 8;
 
 class Builder {
 public:
-  Builder(BinaryBvh& bvh, BuildQuality quality, const BuildStage& stage)
-      : bvh_(bvh), quality_(quality), stage_(stage) {}
+  Builder(const AccelInput& input, BinaryBvh& bvh, BuildQuality quality, const BuildStage& stage)
+      : cutter_(input), bvh_(bvh), quality_(quality), stage_(stage) {}
 
   void build(const RangeBounds& bounds) {
     Subtree root = bvh_.root();
-    other_.resize(root.count);
+    other_.resize(root.capacity);
+    root_area_ = bounds.box.half_area();
     pack_price_ = kPackPrice * bounds.box.half_area() / static_cast<float>(root.count);
     ForestCosts cost;
     build_subtree(root, {bvh_.refs.data(), other_.data()}, bounds, 1, cost);
@@ -47,6 +53,12 @@ private:
   static constexpr std::uint32_t kTaskRange = 2048;
   static constexpr std::uint32_t kParallelRange = 1u << 16;
   static constexpr std::uint32_t kChunks = 32;
+  // Spatial splits are looked for from so many refs on, of so much of the whole's area: in Sponza all that
+  // they bring comes of the upper levels, and looking further down takes three times as long. They are taken
+  // where their cost is at most this of the other's; with 0.9 most of the gain is lost.
+  static constexpr std::uint32_t kLeastSpatial = 64;
+  static constexpr float kLeastSpatialArea = 0.03f;
+  static constexpr float kSpatialGain = 0.95f;
 
   /// Calls visit(chunk, from, to) for all chunks of a large range.
   template <class Visit>
@@ -80,8 +92,17 @@ private:
     left_bounds = in_left, right_bounds = in_right;
   }
 
-  Sides split_large(const Subtree& s, Buffers buffers, const Binning& binning) {
-    Sides sides{{}, {}, 0, {buffers.to, buffers.from}};
+  static Sides no_sides(const Subtree& s, Buffers buffers) { return {{}, {}, 0, buffers, 0, s.count}; }
+  /// The room that is left over goes to both in proportion.
+  static void set_left_count(Sides& sides, const Subtree& s, std::uint32_t left, std::uint32_t right) {
+    sides.left_count = left;
+    sides.right_count = right;
+    const std::uint64_t spare = s.capacity - left - right;
+    sides.left_capacity = left + static_cast<std::uint32_t>(spare * left / (left + right));
+  }
+
+  Sides split_large(const Subtree& s, Buffers buffers, const RangeBounds& bounds, const Binning& binning) {
+    Sides sides = no_sides(s, {buffers.to, buffers.from});
     std::vector<Bins> partial(kChunks);
     for_chunks(s, [&](std::uint32_t chunk, std::uint32_t from, std::uint32_t to) {
       binning.fill(buffers.from + from, buffers.from + to, partial[chunk]);
@@ -90,7 +111,9 @@ private:
     for (const Bins& p : partial) bins.merge(p);
     const Split split = bins.best_split();
     if (split.axis < 0) return sides;
-    sides.left_count = bins.count_left(split);
+    if (split_space(s, buffers, bounds, bins, split, sides)) return sides;
+    const std::uint32_t left_count = bins.count_left(split);
+    set_left_count(sides, s, left_count, s.count - left_count);
     sides.left.box = bins.box_of(split.axis, 0, split.position);
     sides.right.box = bins.box_of(split.axis, split.position, kBins);
     // The bins of the chunks tell where in either side each of them begins.
@@ -103,7 +126,7 @@ private:
     std::array<std::pair<CentroidBounds, CentroidBounds>, kChunks> centroids;
     for_chunks(s, [&](std::uint32_t chunk, std::uint32_t from, std::uint32_t to) {
       BuildRef* left = buffers.to + s.begin + lefts_before[chunk];
-      BuildRef* right = buffers.to + sides.left_count + from - lefts_before[chunk];
+      BuildRef* right = buffers.to + sides.left_capacity + from - lefts_before[chunk];
       partition(binning, split, buffers.from + from, buffers.from + to, left, right, centroids[chunk].first,
                 centroids[chunk].second);
     });
@@ -112,24 +135,101 @@ private:
     return sides;
   }
 
-  Sides split_bins(const Subtree& s, Buffers buffers, const Binning& binning) {
-    Sides sides{{}, {}, 0, {buffers.to, buffers.from}};
+  Sides split_bins(const Subtree& s, Buffers buffers, const RangeBounds& bounds, const Binning& binning) {
+    Sides sides = no_sides(s, {buffers.to, buffers.from});
     const BuildRef *begin = buffers.from + s.begin, *end = begin + s.count;
     Bins bins;
     binning.fill(begin, end, bins);
     const Split split = bins.best_split();
     if (split.axis < 0) return sides;
-    sides.left_count = bins.count_left(split);
+    if (split_space(s, buffers, bounds, bins, split, sides)) return sides;
+    const std::uint32_t left_count = bins.count_left(split);
+    set_left_count(sides, s, left_count, s.count - left_count);
     sides.left.box = bins.box_of(split.axis, 0, split.position);
     sides.right.box = bins.box_of(split.axis, split.position, kBins);
-    BuildRef *left = buffers.to + s.begin, *right = left + sides.left_count;
+    BuildRef *left = buffers.to + s.begin, *right = left + sides.left_capacity;
     partition(binning, split, begin, end, left, right, sides.left.centroids, sides.right.centroids);
     return sides;
   }
 
+  /// What the split of a list would cost at least if its sides did not overlap.
+  static float cost_without_overlap(const Bins& bins, const Split& split, std::uint32_t count) {
+    const BuildBox l = bins.box_of(split.axis, 0, split.position),
+                   r = bins.box_of(split.axis, split.position, kBins);
+    const std::uint32_t n = bins.count_left(split);
+    float most = 0; // along the axis that parts them best
+    for (int a = 0; a < 3; ++a) {
+      // The one that begins first loses what is above the other's begin, and that what is below the first's
+      // end.
+      const bool ordered = l.lo()[a] <= r.lo()[a];
+      const BuildBox &first = ordered ? l : r, &second = ordered ? r : l;
+      const float first_size = std::min(first.hi()[a], second.lo()[a]) - first.lo()[a];
+      const float second_size =
+          second.hi()[a] - std::max(second.lo()[a], std::min(first.hi()[a], second.hi()[a]));
+      const float first_area = area_with(first, a, first_size),
+                  second_area = area_with(second, a, second_size);
+      most = std::max(most, (ordered ? first_area : second_area) * packs_of(n) +
+                                (ordered ? second_area : first_area) * packs_of(count - n));
+    }
+    return most;
+  }
+  /// Half the area of a box of another size along an axis.
+  static float area_with(const BuildBox& box, int axis, float size) {
+    simd::Vec4 d = box.hi() - box.lo();
+    d[axis] = size;
+    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+  }
+
+  /// Splits space instead, where that is much better than what `split` of the list would be.
+  bool split_space(const Subtree& s, Buffers buffers, const RangeBounds& bounds, const Bins& list,
+                   const Split& split, Sides& sides) {
+    if (s.capacity == s.count || s.count < kLeastSpatial) return false;
+    if (bounds.box.half_area() < kLeastSpatialArea * root_area_) return false;
+    if (cost_without_overlap(list, split, s.count) > kSpatialGain * split.cost) return false;
+    const BuildRef *begin = buffers.from + s.begin, *end = begin + s.count;
+    Split best;
+    best.cost = kSpatialGain * split.cost;
+    std::uint32_t below = 0, above = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      SpatialBins bins(cutter_, bounds.box, axis);
+      if (!bins.usable() || bins.crossings(begin, end) > s.count) continue;
+      bins.fill(begin, end);
+      const Split here = bins.best_split();
+      if (!(here.cost < best.cost)) continue;
+      const auto n = static_cast<std::uint32_t>(bins.count_below(here.position));
+      const auto m = static_cast<std::uint32_t>(bins.count_above(here.position));
+      if (n + m > s.capacity || n >= s.count || m >= s.count) continue;
+      best = here, below = n, above = m;
+    }
+    if (best.axis < 0) return false;
+    const auto axis = static_cast<std::size_t>(best.axis);
+    const SpatialBins bins(cutter_, bounds.box, axis);
+    set_left_count(sides, s, below, above);
+    BuildRef *left = buffers.to + s.begin, *right = left + sides.left_capacity;
+    BuildRef *const first_left = left, *const first_right = right;
+    auto put = [](BuildRef*& out, RangeBounds& into, const BuildRef& ref) {
+      *out++ = ref;
+      into.grow(ref);
+    };
+    for (; begin != end; ++begin) {
+      if (bins.last_bin(*begin) < best.position) {
+        put(left, sides.left, *begin);
+      } else if (bins.first_bin(*begin) >= best.position) {
+        put(right, sides.right, *begin);
+      } else {
+        const Parts parts = cutter_.cut(*begin, BuildBox{begin->box()}, axis, bins.plane(best.position));
+        if (!is_empty(parts.below)) put(left, sides.left, begin->within(parts.below));
+        if (!is_empty(parts.above)) put(right, sides.right, begin->within(parts.above));
+      }
+    }
+    sides.left_count = static_cast<std::uint32_t>(left - first_left);
+    sides.right_count = static_cast<std::uint32_t>(right - first_right);
+    return true;
+  }
+
   /// Takes the bounds of sides that are in place already.
   static Sides sides_in_place(const Subtree& s, Buffers buffers, std::uint32_t left_count) {
-    Sides sides{{}, {}, left_count, buffers};
+    Sides sides{{}, {}, left_count, buffers, left_count, s.count - left_count};
     const BuildRef* ref = buffers.from + s.begin;
     for (std::uint32_t i = 0; i < left_count; ++i) sides.left.grow(*ref++);
     for (std::uint32_t i = left_count; i < s.count; ++i) sides.right.grow(*ref++);
@@ -162,13 +262,13 @@ private:
       if (s.count <= kSweepRange) {
         const Ranks ranks(buffers.from + s.begin, s.count);
         const Split split = ranks.best_split();
-        if (as_leaf && split.cost + pack_price_ >= bounds.box.half_area()) return {{}, {}, 0, buffers};
+        if (as_leaf && split.cost + pack_price_ >= bounds.box.half_area()) return no_sides(s, buffers);
         return split_few(s, buffers, ranks, split);
       }
       const Binning binning(bounds.centroids);
       if (binning.usable()) {
-        Sides sides =
-            s.count >= kParallelRange ? split_large(s, buffers, binning) : split_bins(s, buffers, binning);
+        Sides sides = s.count >= kParallelRange ? split_large(s, buffers, bounds, binning)
+                                                : split_bins(s, buffers, bounds, binning);
         if (sides.left_count) return sides;
       }
     }
@@ -214,6 +314,7 @@ private:
       return;
     }
     node.left_count = sides.left_count;
+    if (s.capacity > s.count) bvh_.rooms[s.node] = {sides.left_capacity, sides.right_count};
     Subtree left = bvh_.left(s), right = bvh_.right(s);
     ForestCosts left_cost, right_cost;
     if (s.count >= kTaskRange) {
@@ -229,22 +330,29 @@ private:
       node.plan = plan_node(half_area, as_leaf, left_cost, right_cost, cost).bits;
   }
 
+  Cutter cutter_;
   BinaryBvh& bvh_;
   BuildQuality quality_;
   const BuildStage& stage_;
   HugeVector<BuildRef> other_;
   float pack_price_ = 0; ///< as an area
+  float root_area_ = 0;  ///< half of it
 };
 
 } // namespace
 
-BinaryBvh build_binary_bvh(HugeVector<BuildRef> refs, const RangeBounds& bounds, bool mixed,
-                           BuildQuality quality, Progress* progress) {
+BinaryBvh build_binary_bvh(const AccelInput& input, HugeVector<BuildRef> refs, const RangeBounds& bounds,
+                           bool mixed, BuildQuality quality, Progress* progress) {
   BinaryBvh bvh;
+  bvh.count = static_cast<std::uint32_t>(refs.size());
+  if (quality == BuildQuality::high && !input.triangles.empty()) {
+    refs.resize(refs.size() + refs.size() / kRefsPerDouble);
+    bvh.rooms.resize(refs.size());
+  }
   bvh.nodes.resize(std::max<std::size_t>(refs.size(), 2) - 1);
   bvh.refs = std::move(refs);
   bvh.mixed = mixed;
-  Builder(bvh, quality, BuildStage(progress, StageWork::binary)).build(bounds);
+  Builder(input, bvh, quality, BuildStage(progress, StageWork::binary)).build(bounds);
   return bvh;
 }
 

@@ -3,11 +3,11 @@
 // heuristic over bins of centroids is least (Wald 2007, "On fast Construction of SAH-based Bounding Volume
 // Hierarchies").
 //
-// No primitive is split. Cutting large triangles up beforehand (Karras and Aila 2013, "Fast Parallel
-// Construction of High-Quality Bounding Volume Hierarchies", section 4.3) was tried and made Sponza slower:
-// walls and floors, few packs that every ray tests near the root, came to lie among small things. With 2 %
-// more refs the expected cost rose by 12 %, and primary and diffuse rays lost a tenth; needles and bunny
-// gained nothing.
+// At high quality triangles that reach across a split are named on both sides where that is worth it
+// (accel/spatial_split.h): in Sponza primary rays are 1.15 and diffuse ones 1.18 times as fast, for 6 % more
+// refs. Cutting large triangles up beforehand (Karras and Aila 2013, "Fast Parallel Construction of
+// High-Quality Bounding Volume Hierarchies", section 4.3) was tried instead and made Sponza slower: walls and
+// floors, few packs that every ray tests near the root, came to lie among small things.
 
 #include "accel/accel.h"
 #include "accel/huge_pages.h"
@@ -51,6 +51,14 @@ struct alignas(32) BuildRef {
   std::uint32_t index() const { return tagged_index & ~kTag; } ///< into the input array of its kind
   LeafKind kind() const { return static_cast<LeafKind>(tagged_kind & ~kTag); }
   simd::Float8 box() const { return simd::Float8::load(lo.data()); }
+  /// The part of it in a box.
+  BuildRef within(const BuildBox& b) const {
+    BuildRef part = *this;
+    const simd::Vec4 l = b.v.lower(), h = b.v.upper();
+    for (int a = 0; a < 3; ++a)
+      part.lo[static_cast<std::size_t>(a)] = l[a], part.negated_hi[static_cast<std::size_t>(a)] = h[a];
+    return part;
+  }
 };
 
 /// The sum of the corners of a ref's box, twice its centroid.
@@ -87,11 +95,13 @@ struct alignas(32) BinaryNode {
   simd::Float8 box() const { return simd::Float8::load(lo.data()); }
 };
 
-/// Names a node or a single ref: refs [begin, begin + count). Inner nodes lie in preorder with room for all
-/// that the range could need, count - 1: so the place of a node depends on the input alone, and threads that
-/// build subtrees need not agree on anything.
+/// Names a node or a single ref: refs [begin, begin + count), and room for more of them, `capacity` in all,
+/// where refs may be doubled. Inner nodes lie in preorder with room for all that the range could need,
+/// capacity
+/// - 1: so the place of a node depends on the input alone, and threads that build subtrees need not agree on
+/// anything.
 struct Subtree {
-  std::uint32_t node, begin, count;
+  std::uint32_t node, begin, count, capacity;
 };
 
 inline constexpr std::size_t kMaxPrimitives = (std::size_t{1} << 28) - 1;
@@ -103,14 +113,26 @@ constexpr std::uint32_t leaf_capacity(LeafKind kind) {
 
 struct BinaryBvh {
   HugeVector<BinaryNode> nodes; ///< see Subtree
-  HugeVector<BuildRef> refs;    ///< reordered
+  HugeVector<BuildRef> refs;    ///< reordered, with gaps where there was room for more
   bool mixed = false;           ///< there are refs of more than one kind
+  std::uint32_t count = 0;      ///< refs to begin with
+  /// Of inner nodes whose refs may be doubled; empty where none may be.
+  struct Room {
+    std::uint32_t left_capacity, right_count;
+  };
+  HugeVector<Room> rooms;
 
-  Subtree root() const { return {0, 0, static_cast<std::uint32_t>(refs.size())}; }
-  Subtree left(Subtree s) const { return {s.node + 1, s.begin, nodes[s.node].left_count}; }
+  Subtree root() const { return {0, 0, count, static_cast<std::uint32_t>(refs.size())}; }
+  Subtree left(Subtree s) const {
+    const std::uint32_t n = nodes[s.node].left_count;
+    return {s.node + 1, s.begin, n, s.capacity > s.count ? rooms[s.node].left_capacity : n};
+  }
   Subtree right(Subtree s) const {
-    std::uint32_t left_count = nodes[s.node].left_count;
-    return {s.node + left_count, s.begin + left_count, s.count - left_count};
+    const std::uint32_t n = nodes[s.node].left_count;
+    if (s.capacity == s.count) return {s.node + n, s.begin + n, s.count - n, s.count - n};
+    const Room& room = rooms[s.node];
+    return {s.node + room.left_capacity, s.begin + room.left_capacity, room.right_count,
+            s.capacity - room.left_capacity};
   }
   BuildBox box(Subtree s) const { return {s.count == 1 ? refs[s.begin].box() : nodes[s.node].box()}; }
   LeafKind kind(Subtree s) const { return refs[s.begin].kind(); }
@@ -126,7 +148,7 @@ inline bool fits_leaf(const BuildRef* refs, std::uint32_t count, bool mixed) {
 
 /// bounds are those of all refs, of which there is one at least; their boxes are finite. high builds down to
 /// single primitives and plans the wide tree, fast stops at what fits a leaf. Throws Cancelled.
-BinaryBvh build_binary_bvh(HugeVector<BuildRef> refs, const RangeBounds& bounds, bool mixed,
-                           BuildQuality quality, Progress* progress = nullptr);
+BinaryBvh build_binary_bvh(const AccelInput& input, HugeVector<BuildRef> refs, const RangeBounds& bounds,
+                           bool mixed, BuildQuality quality, Progress* progress = nullptr);
 
 } // namespace candela::accel_detail

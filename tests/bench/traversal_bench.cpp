@@ -171,7 +171,7 @@ void report_build(const BenchScene& scene, int threads, const Options& options) 
   };
   builds.push_back({"Embree medium", theirs(RTC_BUILD_QUALITY_MEDIUM, true)});
   builds.push_back({"Embree high", theirs(RTC_BUILD_QUALITY_HIGH, true)});
-  // With spatial splits, which robust scenes do without.
+  // Robust scenes do without the spatial splits that ours has at high quality.
   builds.push_back({"Embree high, not robust", theirs(RTC_BUILD_QUALITY_HIGH, false)});
 #endif
   for (int i = 0; i < repeats; ++i)
@@ -183,12 +183,15 @@ void report_build(const BenchScene& scene, int threads, const Options& options) 
   if (builds.size() < 3) return;
   auto ratio = [&](const char* what, std::size_t i, std::size_t j) {
     const BuildTime &a = builds[i].least, &b = builds[j].least;
-    fmt::print("{:8} build {}T  {:31} ratio {:.2f}, by processor time {:.2f}  {}\n", scene.name, threads,
-               what, b.wall / a.wall, b.processor / a.processor, b.wall >= a.wall ? "pass" : "FAIL");
+    fmt::print("{:8} build {}T  {:31} ratio {:.2f}, by processor time {:.2f}\n", scene.name, threads, what,
+               b.wall / a.wall, b.processor / a.processor);
+    return b.wall >= a.wall;
   };
-  ratio("fast / Embree medium", 0, 2);
+  const bool fast = ratio("fast / Embree medium", 0, 2);
   ratio("high / Embree high", 1, 3);
-  ratio("high / Embree high, not robust", 1, 4);
+  const bool high = ratio("high / Embree high, not robust", 1, 4);
+  fmt::print("{:8} build {}T  as fast as Embree at the same quality: {}\n", scene.name, threads,
+             fast && high ? "pass" : "FAIL");
 }
 
 /// What tinybvh's BVH8_CPU reaches of Embree's rays per second in primary, diffuse and shadow rays, as it was
