@@ -224,7 +224,9 @@ private:
     }
     sides.left_count = static_cast<std::uint32_t>(left - first_left);
     sides.right_count = static_cast<std::uint32_t>(right - first_right);
-    return true;
+    if (sides.left_count > 0 && sides.right_count > 0) return true;
+    sides = no_sides(s, sides.buffers); // the parts that were expected there are empty
+    return false;
   }
 
   /// Takes the bounds of sides that are in place already.

