@@ -20,7 +20,8 @@ namespace {
         (glm::dot(wi, outside) * vertices.side[i] > 0) == (local.z * vertices.wo_local.z[i] > 0);
     vec3 carried = out.throughput[i];
     float largest = max_component(carried);
-    float q = std::min(std::max(largest * out.unscaled[i] / roulette.threshold, roulette.least), 1.0f);
+    float worth = largest * out.unscaled[i] / roulette.threshold;
+    float q = worth < 1 ? std::max(worth, roulette.least) : 1.0f; // NaN goes on, to be seen
     // Nothing, or less than a normal float: rounding would keep denormals alive for ever where reflectance is
     // above 1/2.
     q = largest < std::numeric_limits<float>::min() ? 0.0f : q;
