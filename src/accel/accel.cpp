@@ -185,7 +185,7 @@ std::unique_ptr<AccelTree> build_tree(const AccelInput& input, std::size_t count
   auto tree = std::make_unique<AccelTree>();
   AccelStats& stats = tree->stats;
   RefList list;
-  list.refs.reserve(count);
+  list.refs.reserve(quality == BuildQuality::high ? with_doubles(count) : count);
   stats.triangles = list.append(
       LeafKind::triangles, input.triangles.size(), [&](std::size_t i) { return triangle_bounds(input, i); },
       making_refs);

@@ -28,9 +28,6 @@ struct Sides {
   std::uint32_t left_capacity, right_count;
 };
 
-/// Spatial splits may double one ref in so many, which keeps all within 64 bytes a triangle.
-constexpr std::uint32_t kRefsPerDouble = 8;
-
 class Builder {
 public:
   Builder(const AccelInput& input, BinaryBvh& bvh, BuildQuality quality, const BuildStage& stage)
@@ -152,7 +149,8 @@ private:
     return sides;
   }
 
-  /// What the split of a list would cost at least if its sides did not overlap.
+  /// What the split of a list would cost if its sides were cut where they overlap, along the axis where that
+  /// changes least: about what a spatial split may gain, to look for one only where that is much.
   static float cost_without_overlap(const Bins& bins, const Split& split, std::uint32_t count) {
     const BuildBox l = bins.box_of(split.axis, 0, split.position),
                    r = bins.box_of(split.axis, split.position, kBins);
@@ -191,6 +189,7 @@ private:
     best.cost = kSpatialGain * split.cost;
     std::uint32_t below = 0, above = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (stage_.cancelled()) return false;
       SpatialBins bins(cutter_, bounds.box, axis);
       if (!bins.usable() || bins.crossings(begin, end) > s.count) continue;
       bins.fill(begin, end);
@@ -348,7 +347,7 @@ BinaryBvh build_binary_bvh(const AccelInput& input, HugeVector<BuildRef> refs, c
   BinaryBvh bvh;
   bvh.count = static_cast<std::uint32_t>(refs.size());
   if (quality == BuildQuality::high && !input.triangles.empty()) {
-    refs.resize(refs.size() + refs.size() / kRefsPerDouble);
+    refs.resize(with_doubles(refs.size()));
     bvh.rooms.resize(refs.size());
   }
   bvh.nodes.resize(std::max<std::size_t>(refs.size(), 2) - 1);

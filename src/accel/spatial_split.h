@@ -42,7 +42,9 @@ public:
       if (v[a] >= plane) grow(parts.above, v, v);
       if ((v[a] < plane) == (w[a] < plane) || v[a] == plane || w[a] == plane) continue;
       Vec4 c = v + (w - v) * ((plane - v[a]) / (w[a] - v[a]));
-      Vec4 pad = simd::max4(simd::abs4(v), simd::abs4(w)) * 0x1p-21f;
+      // Rounding comes to 12 eps (2^-24) of the greater at most: 5 of w - v, which may be twice that, 1 of
+      // c, and 1 of c -+ pad.
+      Vec4 pad = simd::max4(simd::abs4(v), simd::abs4(w)) * 0x1p-20f;
       c[a] = plane, pad[a] = 0;
       grow(parts.below, c - pad, c + pad);
       grow(parts.above, c - pad, c + pad);
@@ -73,7 +75,7 @@ public:
     const float extent = box.hi()[static_cast<int>(axis)] - origin_;
     width_ = extent / kBins;
     scale_ = kBins / extent;
-    usable_ = width_ > 0 && std::isfinite(scale_) && origin_ + width_ > origin_;
+    usable_ = std::isfinite(extent) && std::isfinite(scale_) && origin_ + width_ > origin_;
     begins_.fill(0), ends_.fill(0);
   }
   bool usable() const { return usable_; }

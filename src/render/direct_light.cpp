@@ -97,10 +97,22 @@ void DirectLight::aim(const RenderScene& scene, const VertexLanes& vertices, Lig
     sample_lights({queries_.data(), queried_}, lights_);
     set_aims(vertices, lights_, aims_);
     weigh(vertices, seekers, settings);
-    for (const ShadowRay& shadow : std::span(shadows_.data(), shadow_count_))
-      seekers.light[shadow.lane] +=
-          shadow.light * visibility(scene, shadow.ray, shadow.target, shadow.infinite, counts);
+    for (const ShadowRay& shadow : std::span(shadows_.data(), shadow_count_)) {
+      const float through = visibility(scene, shadow.ray, shadow.target, shadow.infinite, counts);
+      if (through > 0) seekers.light[shadow.lane] += shadow.light * through;
+    }
   }
+}
+
+vec3 DirectLightOfOne::aim(const RenderScene& scene, const Vertex& vertex, const Bsdf& bsdf,
+                           const Sampler& sampler, const PathSettings& settings, RayCounts& counts) {
+  vertices_.set_one(vertex, bsdf);
+  seekers_.count = 1;
+  seekers_.lane[0] = 0;
+  seekers_.sampler[0] = &sampler;
+  seekers_.scattered[0] = 0;
+  direct_light_.aim(scene, vertices_, seekers_, settings, counts);
+  return seekers_.light[0];
 }
 
 } // namespace candela

@@ -64,4 +64,16 @@ private:
   std::size_t shadow_count_ = 0;
 };
 
+/// The same for one vertex at a time, from which no direction is tried by chance.
+class DirectLightOfOne {
+public:
+  vec3 aim(const RenderScene& scene, const Vertex& vertex, const Bsdf& bsdf, const Sampler& sampler,
+           const PathSettings& settings, RayCounts& counts);
+
+private:
+  VertexLanes vertices_;
+  LightSeekers seekers_;
+  DirectLight direct_light_;
+};
+
 } // namespace candela

@@ -109,7 +109,7 @@ private:
       result = {first_hit_value(scene_, start.ray, rays_.camera().forward(), view_, start.sampler, counts),
                 {}};
     else if (settings_.integrator == Integrator::whitted)
-      show(whitted_radiance(scene_, start.ray, start.sampler, settings_.path, counts), result);
+      show(whitted_radiance(scene_, start.ray, start.sampler, settings_.path, direct_light_, counts), result);
     else
       show(ambient_occlusion_sample(scene_, start.ray, start.sampler, settings_, counts), result);
   }
@@ -137,6 +137,7 @@ private:
   PixelRays rays_;
   Sampler sampler_; ///< of the document's kind
   PathTracer paths_;
+  DirectLightOfOne direct_light_;
   // Parallel to the samples in flight:
   std::vector<PathStart> starts_;
   std::vector<Sampler::Draw> draws_;

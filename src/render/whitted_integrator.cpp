@@ -1,7 +1,6 @@
 #include "render/whitted_integrator.h"
 
 #include "bsdf/delta_lobes.h"
-#include "render/direct_light.h"
 #include "render/path_integrator.h"
 
 namespace candela {
@@ -24,9 +23,10 @@ struct SpecularRay {
 
 class WhittedTracer {
 public:
-  WhittedTracer(const RenderScene& scene, Sampler& sampler, const PathSettings& settings, RayCounts& counts)
+  WhittedTracer(const RenderScene& scene, Sampler& sampler, const PathSettings& settings,
+                DirectLightOfOne& direct_light, RayCounts& counts)
       : scene_(scene), sampler_(sampler), settings_(settings), counts_(counts),
-        last_depth_(longest_path(settings)) {
+        last_depth_(longest_path(settings)), direct_light_(direct_light) {
     // No direction is tried by chance but the specular ones: aiming is alone, with full weight.
     settings_.light_sampling = LightSampling::nee;
   }
@@ -59,13 +59,8 @@ private:
       if (depth == last_depth_ || !vertex.scatters()) return;
       Bsdf bsdf = material.diffuse_texture != nullptr ? evaluate_bsdf(material, surface) : material.bsdf;
       if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1) {
-        vertices_.set_one(vertex, bsdf);
-        seekers_.count = 1;
-        seekers_.lane[0] = 0;
-        seekers_.sampler[0] = &sampler_;
-        seekers_.scattered[0] = 0;
-        direct_light_.aim(scene_, vertices_, seekers_, settings_, counts_);
-        sample_.add_aimed(path.throughput * seekers_.light[0], depth + 1);
+        vec3 light = direct_light_.aim(scene_, vertex, bsdf, sampler_, settings_, counts_);
+        sample_.add_aimed(path.throughput * light, depth + 1);
       }
       if (!leave(path, vertex, bsdf, depth)) return;
     }
@@ -128,17 +123,14 @@ private:
   RayCounts& counts_;
   int last_depth_;
   PathSample sample_;
-  // Of the vertex in hand:
-  VertexLanes vertices_;
-  LightSeekers seekers_;
-  DirectLight direct_light_;
+  DirectLightOfOne& direct_light_;
 };
 
 } // namespace
 
 PathSample whitted_radiance(const RenderScene& scene, const Ray& ray, Sampler& sampler,
-                            const PathSettings& settings, RayCounts& counts) {
-  return WhittedTracer(scene, sampler, settings, counts).trace(ray);
+                            const PathSettings& settings, DirectLightOfOne& direct_light, RayCounts& counts) {
+  return WhittedTracer(scene, sampler, settings, direct_light, counts).trace(ray);
 }
 
 } // namespace candela

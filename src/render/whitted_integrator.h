@@ -1,8 +1,8 @@
 #pragma once
 // Ray tracing as Whitted described it: light from lights, and perfect mirrors and glass.
 
+#include "render/direct_light.h"
 #include "render/path_sample.h"
-#include "render/transport.h"
 
 namespace candela {
 
@@ -10,8 +10,8 @@ namespace candela {
 /// specular, both branches of glass followed (Whitted, "An Improved Illumination Model for Shaded Display",
 /// CACM 23(6), 1980). Diffuse surfaces do not light each other: with the path integrator's picture beside it,
 /// one sees what is missing. Lights are aimed at (several times where path.light_samples says so); depths
-/// mean the same as in the path integrator.
+/// mean the same as in the path integrator. `direct_light` is memory, of the thread.
 PathSample whitted_radiance(const RenderScene& scene, const Ray& ray, Sampler& sampler,
-                            const PathSettings& settings, RayCounts& counts);
+                            const PathSettings& settings, DirectLightOfOne& direct_light, RayCounts& counts);
 
 } // namespace candela

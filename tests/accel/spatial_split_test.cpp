@@ -85,6 +85,22 @@ TEST(SpatialSplit, PartsHoldWhatLiesOnTheirSide) {
   EXPECT_GT(one, 50);
 }
 
+// An edge whose crossing rounds by 9 eps: the exact one is in both parts all the same.
+TEST(SpatialSplit, RoundingOfACrossingIsPaidFor) {
+  const vec3 v(-0x1.006deep-1f, -0x1.078d06p+0f, 0), w(0x1.07b084p-1f, 0x1.076d1p+0f, 0);
+  const float plane = 0x1.0441dp-1f;
+  TestScene scene;
+  scene.add_triangle(v, w, vec3(v.x, w.y, 1));
+  const AccelInput input = scene.input();
+  const BuildRef ref = ref_of(scene, 0);
+  const Parts parts = Cutter(input).cut(ref, BuildBox{ref.box()}, 0, plane);
+  const glm::dvec3 a(v), b(w);
+  const glm::dvec3 crossing = a + (b - a) * ((static_cast<double>(plane) - a.x) / (b.x - a.x));
+  // Its z = 0 is the box's own border; of y the two vertices below leave the question to this crossing alone.
+  EXPECT_LE(static_cast<double>(parts.above.lo()[1]), crossing.y);
+  EXPECT_GE(static_cast<double>(parts.above.hi()[1]), crossing.y);
+}
+
 TEST(SpatialSplit, NoPartIsMuchTooLarge) {
   TestScene scene;
   scene.add_triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
