@@ -42,8 +42,8 @@ struct ShearedRay {
     float size_x = std::abs(d[0]), size_y = std::abs(d[1]), size_z = std::abs(d[2]);
     std::size_t y_largest = size_y > size_x, z_largest = size_z > std::max(size_x, size_y);
     kz = std::max(y_largest, 2 * z_largest);
-    static constexpr std::array<std::uint8_t, 3> kNext{1, 2, 0};
-    kx = kNext[kz], ky = kNext[kx];
+    static constexpr std::array<std::size_t, 3> kNext{1, 2, 0}, kNextButOne{2, 0, 1};
+    kx = kNext[kz], ky = kNextButOne[kz];
     float inverse_z = 1 / d[kz];
     origin_x = F(o[kx]), origin_y = F(o[ky]), origin_z = F(o[kz]);
     shear_x = F(d[kx] * inverse_z), shear_y = F(d[ky] * inverse_z);
