@@ -137,43 +137,46 @@ InstanceRecord make_instance(const AccelInput& input, std::uint32_t index) {
   return {AccelAccess::tree(*instance.object), glm::mat4x3(mat4(inverse)), index};
 }
 
+void set_lane(TrianglePack& pack, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+  for (int k = 0; k < 3; ++k) {
+    const vec3 p = input.vertices[input.triangles[index][k]];
+    for (int a = 0; a < 3; ++a)
+      pack.vertex[static_cast<std::size_t>(k)][static_cast<std::size_t>(a)][lane] = p[a];
+  }
+}
+
+void set_lane(SpherePack& pack, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+  const SphereGeometry& s = input.spheres[index];
+  for (int a = 0; a < 3; ++a) pack.center[static_cast<std::size_t>(a)][lane] = s.center[a];
+  pack.radius[lane] = s.radius;
+}
+
+void set_lane(DiscPack& pack, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+  const DiscGeometry& d = input.discs[index];
+  for (int a = 0; a < 3; ++a) {
+    pack.center[static_cast<std::size_t>(a)][lane] = d.center[a];
+    pack.normal[static_cast<std::size_t>(a)][lane] = d.normal[a];
+  }
+  pack.radius[lane] = d.radius;
+}
+
+template <class Pack>
+void fill(Pack& pack, const AccelInput& input, const BuildRef* refs, std::uint32_t count) {
+  pack = Pack::unused();
+  for (std::uint32_t lane = 0; lane < count; ++lane) {
+    pack.primitive[lane] = refs[lane].index();
+    set_lane(pack, lane, input, pack.primitive[lane]);
+  }
+}
+
 void fill_pack(AccelTree& tree, const AccelInput& input, const HugeVector<BuildRef>& refs,
                const LeafRange& leaf) {
-  for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
-    // Unused lanes repeat the last primitive.
-    std::uint32_t index = refs[leaf.begin + std::min(lane, leaf.count - 1)].index();
-    switch (leaf.kind) {
-    case LeafKind::triangles: {
-      TrianglePack& pack = tree.triangles[leaf.pack];
-      for (int k = 0; k < 3; ++k) {
-        vec3 p = input.vertices[input.triangles[index][k]];
-        for (int a = 0; a < 3; ++a)
-          pack.vertex[static_cast<std::size_t>(k)][static_cast<std::size_t>(a)][lane] = p[a];
-      }
-      pack.primitive[lane] = index;
-      break;
-    }
-    case LeafKind::spheres: {
-      SpherePack& pack = tree.spheres[leaf.pack];
-      const SphereGeometry& s = input.spheres[index];
-      for (int a = 0; a < 3; ++a) pack.center[static_cast<std::size_t>(a)][lane] = s.center[a];
-      pack.radius[lane] = s.radius;
-      pack.primitive[lane] = index;
-      break;
-    }
-    case LeafKind::discs: {
-      DiscPack& pack = tree.discs[leaf.pack];
-      const DiscGeometry& d = input.discs[index];
-      for (int a = 0; a < 3; ++a) {
-        pack.center[static_cast<std::size_t>(a)][lane] = d.center[a];
-        pack.normal[static_cast<std::size_t>(a)][lane] = d.normal[a];
-      }
-      pack.radius[lane] = d.radius;
-      pack.primitive[lane] = index;
-      break;
-    }
-    case LeafKind::instance: tree.instances[leaf.pack] = make_instance(input, index); return;
-    }
+  const BuildRef* first = refs.data() + leaf.begin;
+  switch (leaf.kind) {
+  case LeafKind::triangles: return fill(tree.triangles[leaf.pack], input, first, leaf.count);
+  case LeafKind::spheres: return fill(tree.spheres[leaf.pack], input, first, leaf.count);
+  case LeafKind::discs: return fill(tree.discs[leaf.pack], input, first, leaf.count);
+  case LeafKind::instance: tree.instances[leaf.pack] = make_instance(input, first->index());
   }
 }
 

@@ -6,6 +6,8 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <tuple>
+
 namespace candela::accel_detail {
 
 /// What a kernel finds: lanes, and their t in memory, because single lanes are read next.
@@ -14,13 +16,23 @@ struct LaneHits {
   alignas(32) std::array<float, kWidth> t;
 };
 
-/// The lane of least t among some; the lowest such lane.
-inline int closest_lane(simd::LaneMask lanes, const std::array<float, kWidth>& t) {
-  int best = std::countr_zero(lanes);
+/// The lane of least t among some; of those that share it, one with the lowest primitive.
+inline std::size_t closest_lane(simd::LaneMask lanes, const std::array<float, kWidth>& t,
+                                const std::array<std::uint32_t, kWidth>& primitive) {
+  auto best = static_cast<std::size_t>(std::countr_zero(lanes));
   simd::for_each_lane(lanes & (lanes - 1), [&](int lane) {
-    if (t[static_cast<std::size_t>(lane)] < t[static_cast<std::size_t>(best)]) best = lane;
+    auto i = static_cast<std::size_t>(lane);
+    if (t[i] < t[best] || (t[i] == t[best] && primitive[i] < primitive[best])) best = i;
   });
   return best;
+}
+
+/// Of hits at the same t one has to be chosen, and in a way that does not depend on the order in which a ray
+/// comes to them: then neither the tree nor the company that a ray travels in shows in the image. This is
+/// asked where a hit is as far as the closest one so far, `found`, whose t is NaN where there is none.
+inline bool precedes(const Hit& hit, const Hit& found) {
+  return std::tie(hit.instance, hit.kind, hit.primitive) <
+         std::tie(found.instance, found.kind, found.primitive);
 }
 
 /// A ray in a sheared space where it starts at 0 and points along +z (Woop, Benthin and Wald 2013,
@@ -110,7 +122,7 @@ template <class F>
 }
 
 /// Whether a triangle is hit with t in (t_min, t_max). For the closest hit, sets hit and lowers t_max to its
-/// t.
+/// t; at the t of the hit so far, if the triangle precedes.
 template <class F, bool any_hit>
 [[gnu::always_inline]] inline bool meet_triangles(const TrianglePack& pack, const ShearedRay<F>& ray,
                                                   float t_min, float& t_max, Hit& hit) {
@@ -133,23 +145,31 @@ template <class F, bool any_hit>
   // and fails the range test.
   F determinant = e.u + e.v + e.w;
   F t = (e.u * p.z[0] + e.v * p.z[1] + e.w * p.z[2]) * ray.scale_z / determinant;
-  lanes &= less(F(t_min), t) & less(t, F(t_max));
-  if (!lanes) return false;
-  if constexpr (any_hit) return true;
+  simd::LaneMask closer = lanes & less(F(t_min), t) & less(t, F(t_max));
+  if constexpr (any_hit) return closer;
+  if (!closer) {
+    closer = lanes & equal(t, F(hit.t));
+    if (!closer) [[likely]]
+      return false;
+  }
 
-  int lane = std::countr_zero(lanes);
-  t_max = first_lane(t, lanes);
-  if (lanes & (lanes - 1)) [[unlikely]] {
+  auto i = static_cast<std::size_t>(std::countr_zero(closer));
+  float closest = first_lane(t, closer);
+  if (closer & (closer - 1)) [[unlikely]] {
     alignas(32) std::array<float, kWidth> ts;
     t.store(ts.data());
-    lane = closest_lane(lanes, ts);
-    t_max = ts[static_cast<std::size_t>(lane)];
+    i = closest_lane(closer, ts, pack.primitive);
+    closest = ts[i];
   }
+  if (closest == hit.t) [[unlikely]] {
+    if (!precedes({closest, 0, 0, pack.primitive[i], kNoInstance, PrimitiveKind::triangle}, hit))
+      return false;
+  }
+  t_max = closest;
   alignas(32) std::array<float, kWidth> vs, ws, determinants;
   e.v.store(vs.data()), e.w.store(ws.data()), determinant.store(determinants.data());
-  auto i = static_cast<std::size_t>(lane);
   float inverse = 1 / determinants[i];
-  hit = {t_max, vs[i] * inverse, ws[i] * inverse, pack.primitive[i], kNoInstance, PrimitiveKind::triangle};
+  hit = {closest, vs[i] * inverse, ws[i] * inverse, pack.primitive[i], kNoInstance, PrimitiveKind::triangle};
   return true;
 }
 

@@ -69,18 +69,23 @@ struct NoCost {
 template <class F, bool any_hit, class Cost>
 bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost);
 
-/// Spheres, discs and instances; out of line, for the registers belong to triangles.
+/// Spheres, discs and instances; out of line, for the registers belong to triangles. As meet_triangles, but
+/// t_max is the caller's to lower.
 template <class F, bool any_hit, class Cost>
 [[gnu::noinline]] bool meet_other_leaf(const AccelTree& tree, const Ray& ray, ChildRef leaf, float t_min,
                                        float t_max, Hit& hit, Cost& cost) {
-  auto accept = [&](const std::array<std::uint32_t, kWidth>& primitive, PrimitiveKind kind,
-                    const LaneHits& lanes) {
-    if (!lanes.lanes) return false;
-    if constexpr (!any_hit) {
-      auto lane = static_cast<std::size_t>(closest_lane(lanes.lanes, lanes.t));
-      hit = {lanes.t[lane], 0, 0, primitive[lane], kNoInstance, kind};
-    }
+  if constexpr (!any_hit) // what is as far as the hit so far is to be compared with it
+    if (t_max == hit.t) t_max = std::nextafter(t_max, kInfinity);
+  auto accept = [&hit](const Hit& found) {
+    if (found.t == hit.t && !precedes(found, hit)) return false;
+    hit = found;
     return true;
+  };
+  auto accept_lane = [&](const std::array<std::uint32_t, kWidth>& primitive, PrimitiveKind kind,
+                         const LaneHits& lanes) {
+    if (any_hit || !lanes.lanes) return lanes.lanes != 0;
+    const std::size_t lane = closest_lane(lanes.lanes, lanes.t, primitive);
+    return accept({lanes.t[lane], 0, 0, primitive[lane], kNoInstance, kind});
   };
   LaneHits lanes;
   switch (leaf.kind()) {
@@ -88,33 +93,37 @@ template <class F, bool any_hit, class Cost>
   case LeafKind::spheres: {
     const SpherePack& pack = tree.spheres[leaf.index()];
     intersect_spheres<F>(pack, ray, t_min, t_max, lanes);
-    return accept(pack.primitive, PrimitiveKind::sphere, lanes);
+    return accept_lane(pack.primitive, PrimitiveKind::sphere, lanes);
   }
   case LeafKind::discs: {
     const DiscPack& pack = tree.discs[leaf.index()];
     intersect_discs<F>(pack, ray, t_min, t_max, lanes);
-    return accept(pack.primitive, PrimitiveKind::disc, lanes);
+    return accept_lane(pack.primitive, PrimitiveKind::disc, lanes);
   }
   case LeafKind::instance: {
     // In the object's space t stays the same, for the direction is not renormalised.
     const InstanceRecord& instance = tree.instances[leaf.index()];
     const auto& m = instance.object_from_world;
     Ray local{m * vec4(ray.origin, 1), ray.t_min, m * vec4(ray.direction, 0), t_max};
-    if (!trace<F, any_hit>(*instance.object, local, hit, cost)) return false;
-    hit.instance = instance.index;
-    return true;
+    Hit found;
+    if (!trace<F, any_hit>(*instance.object, local, found, cost)) return false;
+    if constexpr (any_hit) return true;
+    found.instance = instance.index;
+    return accept(found);
   }
   }
   return false;
 }
 
-/// Whether the ray meets something in (max(ray.t_min, 0), ray.t_max). For the closest hit, sets
-/// hit. `cost` is a TraversalCost or a NoCost.
-template <class F, bool any_hit, class Cost>
-bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost) {
+/// As trace, for a ray that can meet nothing but these subtrees and leaves of the tree, of which there is one
+/// at least. The last is entered first.
+template <class F, bool any_hit, bool only_leaves, class Cost>
+[[gnu::always_inline]] inline bool trace_subtrees(const AccelTree& tree, std::span<const Waiting> subtrees,
+                                                  const Ray& ray, Hit& hit, Cost& cost) {
   const ShearedRay<F> sheared(ray);
   const float t_min = std::max(ray.t_min, 0.0f);
   float t_max = ray.t_max;
+  if constexpr (!any_hit) hit.t = std::numeric_limits<float>::quiet_NaN(); // see precedes
   bool found = false;
   auto meet_leaf = [&](ChildRef leaf) __attribute__((always_inline)) {
     ++cost.packs;
@@ -124,7 +133,14 @@ bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost) {
     if constexpr (!any_hit) t_max = hit.t;
     return true;
   };
-  if (tree.root.is_leaf()) return meet_leaf(tree.root);
+  if constexpr (only_leaves) { // no boxes, no stack: half of what a ray costs in the Cornell box
+    for (std::size_t i = subtrees.size(); i-- > 0 && subtrees[i].key <= t_max;)
+      if (meet_leaf(subtrees[i].value)) {
+        found = true;
+        if constexpr (any_hit) break;
+      }
+    return found;
+  }
 
   // NaN would meet every box and walk the whole tree.
   vec3 sum = ray.origin + ray.direction;
@@ -133,8 +149,9 @@ bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost) {
   const F t_min8(t_min);
   const WideNode* nodes = tree.nodes.data();
   std::array<Waiting, kStackSize> stack;
-  Waiting* top = stack.data();
-  ChildRef current = tree.root;
+  std::copy(subtrees.begin(), subtrees.end() - 1, stack.begin());
+  Waiting* top = stack.data() + subtrees.size() - 1;
+  ChildRef current = subtrees.back().value;
   for (;;) {
     if (current.is_leaf()) {
       if (meet_leaf(current)) {
@@ -166,6 +183,14 @@ bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost) {
     } while (top->key > t_max);
     current = top->value;
   }
+}
+
+/// Whether the ray meets something in (max(ray.t_min, 0), ray.t_max). For the closest hit, sets
+/// hit. `cost` is a TraversalCost or a NoCost.
+template <class F, bool any_hit, class Cost>
+bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost) {
+  const Waiting root{tree.root, 0};
+  return trace_subtrees<F, any_hit, false>(tree, {&root, 1}, ray, hit, cost);
 }
 
 template <class F, bool any_hit>

@@ -85,6 +85,25 @@ void DirectLight::set_ray(ShadowRay& shadow) const {
   shadow.ray.t_max = shadow.infinite ? kInfinity : 1 - gamma_bound(16);
 }
 
+/// Gives seekers the light that reaches them.
+void DirectLight::look(const RenderScene& scene, LightSeekers& seekers, RayCounts& counts) {
+  const std::span<const ShadowRay> shadows(shadows_.data(), shadow_count_);
+  if (!seekers.neighbours || scene.has_transparency()) {
+    for (const ShadowRay& shadow : shadows) {
+      const float through = visibility(scene, shadow.ray, shadow.target, shadow.infinite, counts);
+      if (through > 0) seekers.light[shadow.lane] += shadow.light * through;
+    }
+    return;
+  }
+  Lanes<const Ray*> rays;
+  Lanes<bool> occluded;
+  for (std::size_t k = 0; k < shadows.size(); ++k) rays[k] = &shadows[k].ray;
+  counts.shadow += shadows.size();
+  scene.geometry().accel().occluded({rays.data(), shadows.size()}, occluded);
+  for (std::size_t k = 0; k < shadows.size(); ++k)
+    if (!occluded[k]) seekers.light[shadows[k].lane] += shadows[k].light;
+}
+
 void DirectLight::aim(const RenderScene& scene, const VertexLanes& vertices, LightSeekers& seekers,
                       const PathSettings& settings, RayCounts& counts) {
   for (std::size_t k = 0; k < seekers.count; ++k) seekers.light[seekers.lane[k]] = vec3(0);
@@ -97,10 +116,7 @@ void DirectLight::aim(const RenderScene& scene, const VertexLanes& vertices, Lig
     sample_lights({queries_.data(), queried_}, lights_);
     set_aims(vertices, lights_, aims_);
     weigh(vertices, seekers, settings);
-    for (const ShadowRay& shadow : std::span(shadows_.data(), shadow_count_)) {
-      const float through = visibility(scene, shadow.ray, shadow.target, shadow.infinite, counts);
-      if (through > 0) seekers.light[shadow.lane] += shadow.light * through;
-    }
+    look(scene, seekers, counts);
   }
 }
 

@@ -19,17 +19,17 @@ vec3 towards_viewer(vec3 normal, const Surface& surface, const Ray& ray) {
 
 } // namespace
 
-vec3 first_hit_value(const RenderScene& scene, Ray ray, vec3 forward, View view, Sampler& sampler,
-                     RayCounts& counts) {
-  if (view == View::bvh_cost) {
-    ++counts.closest;
-    TraversalCost cost = scene.geometry().accel().cost(ray);
-    return vec3(static_cast<float>(cost.nodes + cost.packs));
-  }
-  vec3 origin = ray.origin;
+vec3 bvh_cost_value(const RenderScene& scene, const Ray& ray, RayCounts& counts) {
+  ++counts.closest;
+  const TraversalCost cost = scene.geometry().accel().cost(ray);
+  return vec3(static_cast<float>(cost.nodes + cost.packs));
+}
+
+vec3 first_hit_value(const RenderScene& scene, Ray ray, bool met, Hit hit, vec3 forward, View view,
+                     Sampler& sampler, RayCounts& counts) {
+  const vec3 origin = ray.origin;
   sampler.set_bounce(1);
-  Hit hit;
-  if (!intersect_scene(scene, ray, sampler, hit, counts)) return vec3(0);
+  if (!look_through(scene, ray, sampler, met, hit, counts)) return vec3(0);
   Surface surface = scene.geometry().surface(ray, hit);
   switch (view) {
   case View::albedo: {

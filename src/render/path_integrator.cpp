@@ -54,9 +54,22 @@ void PathTracer::intersect(int depth) {
   arrived_.clear();
   missed_.clear();
   hits_.resize(paths_.size());
-  for (Path& path : paths_) {
+  // Only what a camera sends is neighbours.
+  const bool together = depth == 1;
+  if (together) {
+    rays_.clear();
+    for (const Path& path : paths_) rays_.push_back(&path.ray);
+    scene_.geometry().accel().intersect(rays_, hits_);
+    counts_.closest += rays_.size();
+  }
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    Path& path = paths_[i];
     path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
-    if (intersect_scene(scene_, path.ray, path.sampler, hits_[arrived_.size()], counts_))
+    Hit& hit = hits_[arrived_.size()]; // at i or before
+    if (together) hit = hits_[i];
+    const bool met = together ? look_through(scene_, path.ray, path.sampler, hit.t < kInfinity, hit, counts_)
+                              : intersect_scene(scene_, path.ray, path.sampler, hit, counts_);
+    if (met)
       arrived_.push_back(&path);
     else
       missed_.push_back(&path);
@@ -88,6 +101,7 @@ void PathTracer::stop_at(std::size_t begin, std::size_t count, int depth) {
   vertices_.meet(scene_, {rays.data(), count}, std::span(hits_).subspan(begin, count));
   stops_.clear();
   seekers_.count = 0;
+  seekers_.neighbours = depth == 1;
   several_lobes_ = false;
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!vertices_.scatters(i)) continue;

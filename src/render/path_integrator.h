@@ -88,6 +88,7 @@ private:
   std::span<PathSample> results_;
   RayCounts counts_;
   std::vector<Path> paths_, next_;
+  std::vector<const Ray*> rays_; ///< of the paths, where they are traced together
   std::vector<Path*> missed_;
   std::vector<EnvironmentMap::Place> places_; ///< parallel to missed_
   std::vector<Path*> arrived_;

@@ -50,7 +50,9 @@ public:
   void sample(std::span<const SampleIndex> indices, std::span<PixelSample> results, RayCounts& counts) {
     start(indices);
     counts.samples += indices.size();
-    if (shows_light() && follows_paths()) {
+    if (!shows_light()) {
+      view_first_hits(results, counts);
+    } else if (follows_paths()) {
       parts_.resize(indices.size());
       paths_.trace(starts_, parts_, counts);
       for (std::size_t i = 0; i < indices.size(); ++i) show(parts_[i], results[i]);
@@ -103,12 +105,26 @@ private:
       weights_[i] = rays_.at(indices[i].pixel, film_[i], lens_[i], starts_[i].ray);
   }
 
-  /// Of an integrator or a view that takes one sample after the other.
+  void view_first_hits(std::span<PixelSample> results, RayCounts& counts) {
+    if (view_ == View::bvh_cost) {
+      for (std::size_t i = 0; i < starts_.size(); ++i)
+        results[i] = {bvh_cost_value(scene_, starts_[i].ray, counts), {}};
+      return;
+    }
+    camera_rays_.clear();
+    for (const PathStart& start : starts_) camera_rays_.push_back(&start.ray);
+    hits_.resize(starts_.size());
+    scene_.geometry().accel().intersect(camera_rays_, hits_);
+    counts.closest += starts_.size();
+    for (std::size_t i = 0; i < starts_.size(); ++i)
+      results[i] = {first_hit_value(scene_, starts_[i].ray, hits_[i].t < kInfinity, hits_[i],
+                                    rays_.camera().forward(), view_, starts_[i].sampler, counts),
+                    {}};
+  }
+
+  /// Of an integrator that takes one sample after the other.
   void alone(PathStart& start, PixelSample& result, RayCounts& counts) {
-    if (!shows_light())
-      result = {first_hit_value(scene_, start.ray, rays_.camera().forward(), view_, start.sampler, counts),
-                {}};
-    else if (settings_.integrator == Integrator::whitted)
+    if (settings_.integrator == Integrator::whitted)
       show(whitted_radiance(scene_, start.ray, start.sampler, settings_.path, direct_light_, counts), result);
     else
       show(ambient_occlusion_sample(scene_, start.ray, start.sampler, settings_, counts), result);
@@ -144,6 +160,8 @@ private:
   std::vector<vec2> film_, lens_;
   std::vector<float> weights_;
   std::vector<PathSample> parts_;
+  std::vector<const Ray*> camera_rays_;
+  std::vector<Hit> hits_;
 };
 
 /// The path segment at which a sample stops being finite: the shortest path that is not (found by tracing

@@ -10,19 +10,26 @@ constexpr std::uint32_t kMaxCrossings = 1024;
 
 } // namespace
 
-bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit,
-                     RayCounts& counts) {
-  const Accel& accel = scene.geometry().accel();
-  for (std::uint32_t crossing = 0; crossing < kMaxCrossings; ++crossing) {
-    ++counts.closest;
-    if (!accel.intersect(ray, hit)) return false;
-    if (!scene.has_transparency()) return true;
+bool look_through(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met, Hit& hit,
+                  RayCounts& counts) {
+  if (!scene.has_transparency()) return met;
+  for (std::uint32_t crossing = 0; met; ++crossing) {
     float opacity = scene.material(scene.geometry().material_of(hit)).opacity;
     if (opacity >= 1 || sampler.get_1d(Dimension::opacity, crossing) < opacity) return true;
+    if (crossing + 1 == kMaxCrossings) return false;
     Surface s = scene.geometry().surface(ray, hit);
     ray.origin = offset_ray_origin(s.position, s.position_error, s.geometric_normal, ray.direction);
+    ++counts.closest;
+    met = scene.geometry().accel().intersect(ray, hit);
   }
   return false;
+}
+
+bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit,
+                     RayCounts& counts) {
+  ++counts.closest;
+  const bool met = scene.geometry().accel().intersect(ray, hit);
+  return look_through(scene, ray, sampler, met, hit, counts);
 }
 
 float visibility(const RenderScene& scene, const Ray& towards, vec3 target, bool infinite,

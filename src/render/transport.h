@@ -15,6 +15,9 @@ inline Ray spawn_ray(const Surface& s, vec3 w) {
 /// The closest surface of the ray, looking through what is transparent with the chance of 1 - opacity; each
 /// crossing has a random number of its own. The ray then starts behind the last one that it passed.
 bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit, RayCounts& counts);
+/// The same where it is known what the ray meets first, or (`met`) that it meets nothing.
+bool look_through(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met, Hit& hit,
+                  RayCounts& counts);
 
 /// Share of the light that comes through where the ray goes: 0 or 1, or the product of what the transparent
 /// surfaces there let pass. The ray leads to t = 1 at `target`, or on for ever if `infinite`.

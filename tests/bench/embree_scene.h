@@ -1,5 +1,5 @@
 #pragma once
-// Embree's side of traversal_bench: a scene of one mesh, traced by single rays.
+// Embree's side of traversal_bench: a scene of one mesh, traced by single rays or by packets of 16.
 
 #include "bench_scenes.h"
 #include "core/ray.h"
@@ -48,6 +48,29 @@ public:
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_, &context, &query);
     return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+  }
+  /// How many of 16 rays hit something, told that they are coherent.
+  std::size_t intersect_16(const Ray* rays) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    RTCRayHit16 query;
+    for (std::size_t i = 0; i < 16; ++i) {
+      const Ray& ray = rays[i];
+      query.ray.org_x[i] = ray.origin.x, query.ray.org_y[i] = ray.origin.y, query.ray.org_z[i] = ray.origin.z;
+      query.ray.dir_x[i] = ray.direction.x, query.ray.dir_y[i] = ray.direction.y;
+      query.ray.dir_z[i] = ray.direction.z;
+      query.ray.tnear[i] = ray.t_min, query.ray.tfar[i] = ray.t_max;
+      query.ray.time[i] = 0, query.ray.mask[i] = ~0u, query.ray.id[i] = 0, query.ray.flags[i] = 0;
+      query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    alignas(64) std::array<int, 16> valid;
+    valid.fill(-1);
+    rtcIntersect16(valid.data(), scene_, &context, &query);
+    std::size_t hits = 0;
+    for (unsigned id : query.hit.geomID) hits += id != RTC_INVALID_GEOMETRY_ID;
+    return hits;
   }
   bool occluded(const Ray& ray) const {
     RTCIntersectContext context;

@@ -1,11 +1,12 @@
 // Rays per second of the acceleration structure beside Embree's, on the same rays in one run: absolute
 // numbers drift with the machine, the ratio does not. Single rays on both sides (rtcIntersect1, rtcOccluded1;
-// robust scenes).
+// robust scenes), and camera rays in packets (Accel::intersect of many, rtcIntersect16).
 //
 //   traversal_bench [--short] [--scene NAME] [--threads N] [--rays-only | --builds-only]
 //
 // Each line: scene, ray set, threads, Mrays/s of ours (high build), of Embree (MEDIUM and HIGH builds), the
-// ratios, and whether the lesser one reaches its target. Before them the rates of building, in turn.
+// ratios, and whether the lesser one reaches its target. Packets have none: what they are worth is seen in a
+// whole render. Before them the rates of building, in turn.
 
 #include "accel/accel.h"
 #include "bench_scenes.h"
@@ -19,9 +20,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <omp.h>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,16 +45,17 @@ float random(std::uint32_t index, std::uint32_t dimension) {
   return to_unit_float(hash32(index + hash32(dimension)));
 }
 
-/// A pinhole camera's rays, tile by tile as a renderer traces them.
-std::vector<Ray> primary_rays(const View& view, std::uint32_t size) {
+/// A pinhole camera's rays, tile by tile as a renderer traces them: of all tiles one sample a pixel, or more
+/// of so much fewer tiles.
+std::vector<Ray> primary_rays(const View& view, std::uint32_t size, std::uint32_t samples = 1) {
   constexpr std::uint32_t kTile = 16;
   Basis frame = Basis::from_normal(glm::normalize(view.target - view.eye));
   vec3 right = glm::normalize(glm::cross(frame.n, vec3(0, 1, 0))), up = glm::cross(right, frame.n);
   float scale = std::tan(0.5f * view.fov_y);
   std::vector<Ray> rays;
-  for (std::uint32_t tile = 0; tile < (size / kTile) * (size / kTile); ++tile)
-    for (std::uint32_t i = 0; i < kTile * kTile; ++i) {
-      auto n = static_cast<std::uint32_t>(rays.size());
+  for (std::uint32_t tile = 0; tile < (size / kTile) * (size / kTile); tile += samples)
+    for (std::uint32_t sample = 0; sample < kTile * kTile * samples; ++sample) {
+      auto n = static_cast<std::uint32_t>(rays.size()), i = sample / samples;
       float x = static_cast<float>(tile % (size / kTile) * kTile + i % kTile) + random(n, 0);
       float y = static_cast<float>(tile / (size / kTile) * kTile + i / kTile) + random(n, 1);
       float s = scale * (2 * x / static_cast<float>(size) - 1),
@@ -103,10 +107,10 @@ struct Measured {
   std::size_t hits = 0;
 };
 
-/// Traces the rays once with each of `tracers` (functions from Ray to bool) in turn, again and again, and
-/// keeps for every 2048 rays the least time: on a shared machine the least time of short pieces is what would
-/// be measured undisturbed, and the turns make whatever is left meet all alike. Gives the rays per second of
-/// each.
+/// Traces the rays once with each of `tracers` (functions from some rays to how many of them hit) in turn,
+/// again and again, and keeps for every 2048 rays the least time: on a shared machine the least time of short
+/// pieces is what would be measured undisturbed, and the turns make whatever is left meet all alike. Gives
+/// the rays per second of each.
 template <class... Tracers>
 std::vector<std::pair<double, std::size_t>> measure(const std::vector<Ray>& rays, int threads, int rounds,
                                                     const Tracers&... tracers) {
@@ -123,10 +127,8 @@ std::vector<std::pair<double, std::size_t>> measure(const std::vector<Ray>& rays
 #pragma omp barrier
       for (auto c = static_cast<std::size_t>(omp_get_thread_num()); c < chunks;
            c += static_cast<std::size_t>(threads)) {
-        double s = least_seconds(1, [&] {
-          for (std::size_t i = c * kChunk; i < std::min((c + 1) * kChunk, rays.size()); ++i)
-            hits += tracer(rays[i]);
-        });
+        const auto chunk = std::span(rays).subspan(c * kChunk, std::min(kChunk, rays.size() - c * kChunk));
+        double s = least_seconds(1, [&] { hits += tracer(chunk); });
         m.chunk_seconds[c] = std::min(m.chunk_seconds[c], s);
       }
       if (round == 0) {
@@ -213,6 +215,31 @@ double target_ratio(std::string_view scene, std::size_t set) {
   return result;
 }
 
+/// What a line is about.
+struct Rated {
+  std::string_view scene, rays;
+  int threads;
+  double target; ///< 0 for none
+};
+
+/// The rates of ours and, where there are any, of Embree's builds.
+void print_rates(const Rated& rated, const std::vector<std::pair<double, std::size_t>>& rates) {
+  auto [ours, hits] = rates[0];
+  std::string line = fmt::format("{:8} {:8} {}T  Mrays/s: ours {:6.2f}", rated.scene, rated.rays,
+                                 rated.threads, ours * 1e-6);
+  double least_ratio = kInfinity;
+  for (std::size_t i = 1; i < rates.size(); ++i) {
+    auto [theirs, their_hits] = rates[i];
+    least_ratio = std::min(least_ratio, ours / theirs);
+    line += fmt::format(" | Embree {} {:6.2f} ratio {:.2f} hits {:+d}", i == 1 ? "medium" : "high",
+                        theirs * 1e-6, ours / theirs, static_cast<std::ptrdiff_t>(their_hits - hits));
+  }
+  if (rates.size() > 1 && rated.target > 0)
+    line += fmt::format(" | target {:.2f} {}", rated.target, least_ratio >= rated.target ? "pass" : "FAIL");
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
 void report_rays(const BenchScene& scene, const Options& options) {
   AccelInput input{.vertices = scene.mesh.vertices, .triangles = scene.mesh.triangles};
   omp_set_num_threads(options.threads);
@@ -238,32 +265,47 @@ void report_rays(const BenchScene& scene, const Options& options) {
                   Set{"shadow", 2, sets.shadow, true}})
     for (int threads = 1; threads <= options.threads; threads *= 2) {
       auto tracer = [&](const auto& of) {
-        return
-            [&of, any = set.any](const Ray& ray) { return any ? of.occluded(ray) : bool(of.intersect(ray)); };
+        return [&of, any = set.any](std::span<const Ray> rays) {
+          std::size_t hits = 0;
+          for (const Ray& ray : rays) hits += any ? of.occluded(ray) : bool(of.intersect(ray));
+          return hits;
+        };
       };
-      auto result = measure(set.rays, threads, options.quick ? 2 : 15, tracer(accel)
+      print_rates({scene.name, set.name, threads, target_ratio(scene.name, set.index)},
+                  measure(set.rays, threads, options.quick ? 2 : 15, tracer(accel)
 #ifdef CANDELA_BENCH_EMBREE
-                                                                           ,
-                            tracer(medium), tracer(high)
+                                                                         ,
+                          tracer(medium), tracer(high)
 #endif
-      );
-      auto [ours, hits] = result[0];
-      std::string line =
-          fmt::format("{:8} {:8} {}T  Mrays/s: ours {:6.2f}", scene.name, set.name, threads, ours * 1e-6);
-      double least_ratio = kInfinity;
-      for (std::size_t i = 1; i < result.size(); ++i) {
-        auto [theirs, their_hits] = result[i];
-        least_ratio = std::min(least_ratio, ours / theirs);
-        line += fmt::format(" | Embree {} {:6.2f} ratio {:.2f} hits {:+d}", i == 1 ? "medium" : "high",
-                            theirs * 1e-6, ours / theirs, static_cast<std::ptrdiff_t>(their_hits - hits));
-      }
-      if (result.size() > 1) {
-        const double target = target_ratio(scene.name, set.index);
-        line += fmt::format(" | target {:.2f} {}", target, least_ratio >= target ? "pass" : "FAIL");
-      }
-      fmt::print("{}\n", line);
-      std::fflush(stdout);
+                              ));
     }
+  for (std::uint32_t samples : {1u, 16u}) {
+    const std::vector<Ray> rays = primary_rays(scene.view, options.quick ? 128 : 512, samples);
+    auto ours = [&](std::span<const Ray> some) {
+      std::vector<const Ray*> pointers;
+      for (const Ray& ray : some) pointers.push_back(&ray);
+      std::vector<Hit> hits(some.size());
+      accel.intersect(pointers, hits);
+      return static_cast<std::size_t>(
+          std::count_if(hits.begin(), hits.end(), [](const Hit& hit) { return hit.t < kInfinity; }));
+    };
+#ifdef CANDELA_BENCH_EMBREE
+    auto theirs = [](const EmbreeScene& of) {
+      return [&of](std::span<const Ray> some) {
+        std::size_t hits = 0;
+        for (std::size_t i = 0; i + 16 <= some.size(); i += 16) hits += of.intersect_16(&some[i]);
+        return hits;
+      };
+    };
+#endif
+    const std::string name = fmt::format("packets of {} spp", samples);
+    print_rates({scene.name, name, 1, 0}, measure(rays, 1, options.quick ? 2 : 15, ours
+#ifdef CANDELA_BENCH_EMBREE
+                                                  ,
+                                                  theirs(medium), theirs(high)
+#endif
+                                                      ));
+  }
 }
 
 } // namespace
