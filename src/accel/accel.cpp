@@ -16,9 +16,6 @@ using namespace accel_detail;
 
 namespace {
 
-/// Beyond, products of coordinates overflow; so does what the file that holds them meant.
-constexpr float kMaxCoordinate = 1e12f;
-
 /// Fewer primitives are built by the caller's thread.
 constexpr std::size_t kTeamWork = 4096;
 

@@ -23,8 +23,8 @@ Camera moved_camera(const Camera& camera, vec3 distance) {
   Camera result = camera;
   if (camera.projection == Projection::orthographic) {
     const float reach = glm::length(camera.target - camera.position);
-    result.orthographic_height =
-        std::clamp(camera.orthographic_height * std::exp(-distance.z / reach), 1e-6f, 1e9f);
+    result.orthographic_height = std::clamp(camera.orthographic_height * std::exp(-distance.z / reach), 1e-6f,
+                                            Camera::kGreatestHeight);
     distance.z = 0;
   }
   const vec3 step = distance.x * right + distance.y * glm::normalize(camera.up) + distance.z * forward;

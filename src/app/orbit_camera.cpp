@@ -128,7 +128,7 @@ Camera framing_camera(const Camera& camera, const Bounds3& bounds, float aspect)
   result.target = bounds.center();
   result.position = result.target - kFrameMargin * radius / std::sin(half_angle) * view_axes(camera).forward;
   if (camera.projection == Projection::orthographic)
-    result.orthographic_height = kFrameMargin * 2 * radius / narrow;
+    result.orthographic_height = std::min(kFrameMargin * 2 * radius / narrow, Camera::kGreatestHeight);
   return result;
 }
 

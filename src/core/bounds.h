@@ -1,9 +1,14 @@
 #pragma once
-// Axis-aligned box; the default one is empty, and growing an empty box by a point gives the point.
+// Axis-aligned box; the default one is empty, and growing an empty box by a point gives the point. And how
+// large it may be.
 
 #include "core/math.h"
 
 namespace candela {
+
+/// Beyond, products of coordinates overflow, and so did what the file that holds them meant: primitives there
+/// are left out of pictures.
+inline constexpr float kMaxCoordinate = 1e12f;
 
 struct Bounds3 {
   vec3 lo{kInfinity};

@@ -65,8 +65,12 @@ std::string angle_text(float radians_value) {
 }
 
 bool in_range(const FieldInfo& field, double value) {
-  // Infinity passes only where the table leaves that side open.
-  return value >= field.minimum && value <= field.maximum;
+  // Infinity passes only where the table leaves that side open. Reals are compared as the floats that they
+  // become: 0.1 must pass a limit of 0.1, though in float it is a little more.
+  auto stored = [&](double x) {
+    return field.type == FieldType::integer ? x : static_cast<double>(static_cast<float>(x));
+  };
+  return stored(value) >= stored(field.minimum) && stored(value) <= stored(field.maximum);
 }
 
 void read_vector(const FieldInfo& field, vec3& out, std::string_view text) {

@@ -133,7 +133,7 @@ void frame_camera(Camera& camera, const Bounds3& bounds) {
   camera.target = bounds.center();
   camera.position = camera.target + distance * glm::normalize(vec3(0.3f, 0.25f, 1));
   camera.up = {0, 1, 0};
-  camera.orthographic_height = 2 * 1.05f * radius;
+  camera.orthographic_height = std::min(2 * 1.05f * radius, Camera::kGreatestHeight);
 }
 
 } // namespace candela

@@ -215,6 +215,16 @@ Bounds3 shape_bounds(const Shape& shape) {
   return box;
 }
 
+namespace {
+
+/// Also what is not finite.
+vec3 within_reach(vec3 p) {
+  auto limit = [](float x) { return std::abs(x) <= kMaxCoordinate ? x : std::copysign(kMaxCoordinate, x); };
+  return {limit(p.x), limit(p.y), limit(p.z)};
+}
+
+} // namespace
+
 Bounds3 instance_bounds(const std::vector<Instance>& instances) {
   std::map<const Mesh*, Bounds3> meshes; // shared ones are looked through once
   Bounds3 all, planes;
@@ -230,9 +240,9 @@ Bounds3 instance_bounds(const std::vector<Instance>& instances) {
     if (box.empty()) continue;
     Bounds3& grown = std::holds_alternative<PlaneShape>(instance.shape) ? planes : all;
     for (int corner = 0; corner < 8; ++corner)
-      grown.grow(transform_point(instance.world_from_object,
-                                 {(corner & 1) ? box.hi.x : box.lo.x, (corner & 2) ? box.hi.y : box.lo.y,
-                                  (corner & 4) ? box.hi.z : box.lo.z}));
+      grown.grow(within_reach(transform_point(
+          instance.world_from_object, {(corner & 1) ? box.hi.x : box.lo.x, (corner & 2) ? box.hi.y : box.lo.y,
+                                       (corner & 4) ? box.hi.z : box.lo.z})));
   }
   return all.empty() ? planes : all;
 }

@@ -23,6 +23,7 @@ struct Camera {
   vec3 up{0, 1, 0};
   float vertical_fov = radians(45.0f); ///< radians, of the full image height
   Projection projection = Projection::perspective;
+  static constexpr float kGreatestHeight = 1e9f;
   float orthographic_height = 2; ///< scene units, of the full image height
   float aspect = 0;              ///< width over height of the view; 0: that of the film, pixels are square
   float aperture_radius = 0;     ///< scene units; 0: pinhole
@@ -151,7 +152,7 @@ struct SceneDesc {
 Bounds3 shape_bounds(const Shape& shape);
 
 /// Bounds in world space of all shapes but planes (of their boxes' corners: an upper bound); of planes' unit
-/// squares where there is nothing else.
+/// squares where there is nothing else. Within kMaxCoordinate.
 Bounds3 instance_bounds(const std::vector<Instance>& instances);
 
 /// Rows of the editable values; names, transforms and texture links are not in them.

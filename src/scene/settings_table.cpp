@@ -162,7 +162,7 @@ const Field<Document> kTable[] = {
     {{"camera.orthographic_height",
       FieldType::real,
       1e-6,
-      1e9,
+      Camera::kGreatestHeight,
       "scene units",
       "Height of the orthographic view",
       kImage,

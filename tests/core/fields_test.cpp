@@ -116,6 +116,9 @@ TEST(Fields, ProblemsOfValues) {
   EXPECT_EQ(field_problem(info(FieldType::real), &inf), "is not finite");
   EXPECT_EQ(field_problem(info(FieldType::real, 0, 1), &two), "2 is out of range");
   EXPECT_EQ(field_problem(info(FieldType::real, 0, 2), &two), "");
+  const float tenth = 0.1f, millionth = 1e-6f; // above and below what the limits are in double
+  EXPECT_EQ(field_problem(info(FieldType::real, 1e-6, 0.1), &tenth), "");
+  EXPECT_EQ(field_problem(info(FieldType::real, 1e-6, 0.1), &millionth), "");
   float half_turn = kPi;
   EXPECT_EQ(field_problem(info(FieldType::angle, 0, 180), &half_turn), "");
   for (int value : {-1, 3}) EXPECT_NE(field_problem(info(FieldType::choice), &value), "");

@@ -4,6 +4,8 @@
 #include "scene_files.h"
 #include "support/seed.h"
 
+#include <fmt/format.h>
+
 #include <random>
 
 namespace candela {
@@ -79,6 +81,17 @@ protected:
 };
 
 TEST_P(HostileScenes, Whole) { EXPECT_TRUE(attempt(GetParam().text)); }
+
+/// Finite numbers whose squares are not: the camera that is set up for the mesh has to be usable.
+TEST(HostileCoordinates, AreFinite) {
+  SceneFiles files;
+  for (const char* coordinate : {"1.5e21", "-1.5e21", "3.4e38", "1e13"}) {
+    files.write("huge.obj", fmt::format("v 0 0 0\nv 1 0 0\nv 1 {} 0\nf 1 2 3\n", coordinate));
+    EXPECT_EQ(document_problem(files.read("huge.obj").document), "") << coordinate;
+    files.write("far.obj", fmt::format("v {0} 0 0\nv {0} 1 0\nv {0} {0} 1\nf 1 2 3\n", coordinate));
+    EXPECT_EQ(document_problem(files.read("far.obj").document), "") << coordinate;
+  }
+}
 
 TEST_P(HostileScenes, EveryTruncation) {
   std::string text = GetParam().text;
