@@ -35,25 +35,36 @@ inline bool precedes(const Hit& hit, const Hit& found) {
          std::tie(found.instance, found.kind, found.primitive);
 }
 
+/// The axis of the largest component; the first of several. By arithmetic and from memory: branches on the
+/// axis (GLM's operator[] is a switch) would be mispredicted for every other diffuse ray, a tenth of its
+/// time.
+inline std::size_t largest_axis(const vec3& direction) {
+  const float* d = glm::value_ptr(direction);
+  float size_x = std::abs(d[0]), size_y = std::abs(d[1]), size_z = std::abs(d[2]);
+  std::size_t y_largest = size_y > size_x, z_largest = size_z > std::max(size_x, size_y);
+  return std::max(y_largest, 2 * z_largest);
+}
+
 /// A ray in a sheared space where it starts at 0 and points along +z (Woop, Benthin and Wald 2013,
 /// "Watertight Ray/Triangle Intersection", JCGT 2(1)). There the triangle test is a 2-D point-in-triangle
 /// test at the origin, and since both triangles at an edge see the same rounded 2-D vertices, they agree on
-/// the edge.
+/// the edge. One ray in all lanes, or a ray a lane that have kz in common. The winding may turn over, for the
+/// test takes both sides.
 template <class F>
 struct ShearedRay {
   std::size_t kx, ky, kz; ///< kz: the axis of the largest direction component
   F origin_x, origin_y, origin_z;
   F shear_x, shear_y, scale_z;
 
+  ShearedRay(std::size_t x, std::size_t y, std::size_t z, F origin_x_, F origin_y_, F origin_z_, F shear_x_,
+             F shear_y_, F scale_z_)
+      : kx(x), ky(y), kz(z), origin_x(origin_x_), origin_y(origin_y_), origin_z(origin_z_), shear_x(shear_x_),
+        shear_y(shear_y_), scale_z(scale_z_) {}
+
   explicit ShearedRay(const Ray& ray) {
-    // By arithmetic and from memory: branches on the axis (GLM's operator[] is a switch) would be
-    // mispredicted for every other diffuse ray, a tenth of its time. The winding may turn over, for the test
-    // takes both sides.
     const float* o = glm::value_ptr(ray.origin);
     const float* d = glm::value_ptr(ray.direction);
-    float size_x = std::abs(d[0]), size_y = std::abs(d[1]), size_z = std::abs(d[2]);
-    std::size_t y_largest = size_y > size_x, z_largest = size_z > std::max(size_x, size_y);
-    kz = std::max(y_largest, 2 * z_largest);
+    kz = largest_axis(ray.direction);
     static constexpr std::array<std::size_t, 3> kNext{1, 2, 0}, kNextButOne{2, 0, 1};
     kx = kNext[kz], ky = kNextButOne[kz];
     float inverse_z = 1 / d[kz];
@@ -63,16 +74,33 @@ struct ShearedRay {
   }
 };
 
-/// The vertices of eight triangles in the ray's sheared space.
+/// One triangle of a pack, in all lanes.
+struct PackedTriangle {
+  const TrianglePack* pack;
+  std::size_t lane;
+  std::uint32_t primitive;
+};
+
+template <class F>
+[[gnu::always_inline]] inline F load_vertex(const TrianglePack& pack, std::size_t k, std::size_t axis) {
+  return F::load(pack.vertex[k][axis].data());
+}
+template <class F>
+[[gnu::always_inline]] inline F load_vertex(const PackedTriangle& t, std::size_t k, std::size_t axis) {
+  return F(t.pack->vertex[k][axis][t.lane]);
+}
+
+/// The vertices of eight triangles in the ray's sheared space, or of a triangle in those of eight rays.
 template <class F>
 struct ShearedTriangles {
   std::array<F, 3> x, y, z;
 
-  [[gnu::always_inline]] ShearedTriangles(const TrianglePack& pack, const ShearedRay<F>& ray) {
+  template <class Triangles>
+  [[gnu::always_inline]] ShearedTriangles(const Triangles& triangles, const ShearedRay<F>& ray) {
     for (std::size_t k = 0; k < 3; ++k) {
-      z[k] = F::load(pack.vertex[k][ray.kz].data()) - ray.origin_z;
-      x[k] = (F::load(pack.vertex[k][ray.kx].data()) - ray.origin_x) - ray.shear_x * z[k];
-      y[k] = (F::load(pack.vertex[k][ray.ky].data()) - ray.origin_y) - ray.shear_y * z[k];
+      z[k] = load_vertex<F>(triangles, k, ray.kz) - ray.origin_z;
+      x[k] = (load_vertex<F>(triangles, k, ray.kx) - ray.origin_x) - ray.shear_x * z[k];
+      y[k] = (load_vertex<F>(triangles, k, ray.ky) - ray.origin_y) - ray.shear_y * z[k];
     }
   }
 };
@@ -96,10 +124,10 @@ struct ResolvedEdges {
 /// the product of two floats is exact in double, so the sign is that of the exact value and 0 means on the
 /// edge. Gives the lanes that stay hit. Out of line and from scratch, or the common case would store its
 /// vertices.
-template <class F>
-[[gnu::noinline, gnu::cold]] ResolvedEdges resolve_edges(const TrianglePack& pack, const ShearedRay<F>& ray,
+template <class F, class Triangles>
+[[gnu::noinline, gnu::cold]] ResolvedEdges resolve_edges(const Triangles& triangles, const ShearedRay<F>& ray,
                                                          simd::LaneMask lanes) {
-  ShearedTriangles<F> p(pack, ray);
+  ShearedTriangles<F> p(triangles, ray);
   EdgeFunctions<F> e(p);
   alignas(32) float x[3][kWidth], y[3][kWidth];
   for (std::size_t k = 0; k < 3; ++k) p.x[k].store(x[k]), p.y[k].store(y[k]);
@@ -121,43 +149,60 @@ template <class F>
   return result;
 }
 
+/// Where a line meets eight triangles, or eight lines meet one.
+template <class F>
+struct TriangleHits {
+  simd::LaneMask lanes; ///< that meet; all else says something of these only
+  EdgeFunctions<F> edge;
+  F determinant, t; ///< infinite or NaN where the triangle is seen edge-on
+
+  template <class Triangles>
+  [[gnu::always_inline]] TriangleHits(const Triangles& triangles, const ShearedRay<F>& ray)
+      : TriangleHits(triangles, ray, ShearedTriangles<F>(triangles, ray)) {}
+
+private:
+  template <class Triangles>
+  [[gnu::always_inline]] TriangleHits(const Triangles& triangles, const ShearedRay<F>& ray,
+                                      const ShearedTriangles<F>& p)
+      : edge(p) {
+    // Inside if no two signs differ. Rounding is monotonic, so the sign of a difference of two rounded
+    // products is right unless it is 0; and a 0 can matter only where the other two signs agree, that is,
+    // where it is the least or the greatest of the three.
+    F zero(0.0f), least = min(edge.u, min(edge.v, edge.w)), greatest = max(edge.u, max(edge.v, edge.w));
+    lanes = less_equal(zero, least) | less_equal(greatest, zero);
+    if (!lanes) return;
+    if (simd::LaneMask on_edge = lanes & (equal(least, zero) | equal(greatest, zero))) [[unlikely]] {
+      ResolvedEdges resolved = resolve_edges(triangles, ray, on_edge);
+      lanes = (lanes & ~on_edge) | resolved.lanes;
+      edge.u = F::load(resolved.u.data()), edge.v = F::load(resolved.v.data());
+      edge.w = F::load(resolved.w.data());
+    }
+    // t = (u z0 + v z1 + w z2) / (u + v + w)
+    determinant = edge.u + edge.v + edge.w;
+    t = (edge.u * p.z[0] + edge.v * p.z[1] + edge.w * p.z[2]) * ray.scale_z / determinant;
+  }
+};
+
 /// Whether a triangle is hit with t in (t_min, t_max). For the closest hit, sets hit and lowers t_max to its
 /// t; at the t of the hit so far, if the triangle precedes.
 template <class F, bool any_hit>
 [[gnu::always_inline]] inline bool meet_triangles(const TrianglePack& pack, const ShearedRay<F>& ray,
                                                   float t_min, float& t_max, Hit& hit) {
-  const ShearedTriangles<F> p(pack, ray);
-  EdgeFunctions<F> e(p);
-
-  // Inside if no two signs differ. Rounding is monotonic, so the sign of a difference of two rounded products
-  // is right unless it is 0; and a 0 can matter only where the other two signs agree, that is, where it is
-  // the least or the greatest of the three.
-  F zero(0.0f), least = min(e.u, min(e.v, e.w)), greatest = max(e.u, max(e.v, e.w));
-  simd::LaneMask lanes = less_equal(zero, least) | less_equal(greatest, zero);
-  if (!lanes) return false;
-  if (simd::LaneMask on_edge = lanes & (equal(least, zero) | equal(greatest, zero))) [[unlikely]] {
-    ResolvedEdges resolved = resolve_edges(pack, ray, on_edge);
-    lanes = (lanes & ~on_edge) | resolved.lanes;
-    e.u = F::load(resolved.u.data()), e.v = F::load(resolved.v.data()), e.w = F::load(resolved.w.data());
-  }
-
-  // t = (u z0 + v z1 + w z2) / (u + v + w); an edge-on triangle has determinant 0, so t is NaN or infinite
-  // and fails the range test.
-  F determinant = e.u + e.v + e.w;
-  F t = (e.u * p.z[0] + e.v * p.z[1] + e.w * p.z[2]) * ray.scale_z / determinant;
-  simd::LaneMask closer = lanes & less(F(t_min), t) & less(t, F(t_max));
+  const TriangleHits<F> found(pack, ray);
+  if (!found.lanes) return false;
+  simd::LaneMask closer = found.lanes & less(F(t_min), found.t) & less(found.t, F(t_max));
   if constexpr (any_hit) return closer;
   if (!closer) {
-    closer = lanes & equal(t, F(hit.t));
+    closer = found.lanes & equal(found.t, F(hit.t));
     if (!closer) [[likely]]
       return false;
   }
 
   auto i = static_cast<std::size_t>(std::countr_zero(closer));
-  float closest = first_lane(t, closer);
+  float closest = first_lane(found.t, closer);
   if (closer & (closer - 1)) [[unlikely]] {
     alignas(32) std::array<float, kWidth> ts;
-    t.store(ts.data());
+    found.t.store(ts.data());
     i = closest_lane(closer, ts, pack.primitive);
     closest = ts[i];
   }
@@ -167,7 +212,8 @@ template <class F, bool any_hit>
   }
   t_max = closest;
   alignas(32) std::array<float, kWidth> vs, ws, determinants;
-  e.v.store(vs.data()), e.w.store(ws.data()), determinant.store(determinants.data());
+  found.edge.v.store(vs.data()), found.edge.w.store(ws.data());
+  found.determinant.store(determinants.data());
   float inverse = 1 / determinants[i];
   hit = {closest, vs[i] * inverse, ws[i] * inverse, pack.primitive[i], kNoInstance, PrimitiveKind::triangle};
   return true;

@@ -104,6 +104,11 @@ struct PortableFloat8 {
     return {blend(a.lo < b.lo, x.lo, y.lo), blend(a.hi < b.hi, x.hi, y.hi)};
   }
 
+  /// x in the lanes, y in the others.
+  friend PortableFloat8 select_lanes(LaneMask lanes, PortableFloat8 x, PortableFloat8 y) {
+    const HalfInt bit{1, 2, 4, 8}, all = HalfInt{} + static_cast<std::int32_t>(lanes);
+    return {blend((all & bit) != 0, x.lo, y.lo), blend((all >> 4 & bit) != 0, x.hi, y.hi)};
+  }
   /// Of the lowest of the lanes, of which there is one at least.
   friend float first_lane(PortableFloat8 a, LaneMask lanes) {
     int i = std::countr_zero(lanes);
@@ -156,6 +161,14 @@ struct AvxFloat8 {
     return _mm256_blendv_ps(y.v, x.v, _mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ));
   }
 
+  friend AvxFloat8 select_lanes(LaneMask lanes, AvxFloat8 x, AvxFloat8 y) {
+#if defined(__AVX512VL__)
+    return _mm256_mask_mov_ps(y.v, static_cast<__mmask8>(lanes), x.v);
+#else
+    return _mm256_blendv_ps(y.v, x.v, _mm256_set_m128(half_mask(lanes >> 4), half_mask(lanes)));
+#endif
+  }
+
   friend float first_lane(AvxFloat8 a, LaneMask lanes) {
 #if defined(__AVX512VL__)
     // A shuffle has half the latency of memory, and the next box test waits for this.
@@ -168,6 +181,12 @@ struct AvxFloat8 {
   }
 
 private:
+  /// The lowest four bits as four lanes.
+  static __m128 half_mask(LaneMask lanes) {
+    const __m128i bit = _mm_setr_epi32(1, 2, 4, 8);
+    return _mm_castsi128_ps(
+        _mm_cmpeq_epi32(_mm_and_si128(_mm_set1_epi32(static_cast<int>(lanes)), bit), bit));
+  }
   template <int predicate>
   static LaneMask compare(AvxFloat8 a, AvxFloat8 b) {
 #if defined(__AVX512VL__)

@@ -4,16 +4,12 @@ namespace candela {
 
 namespace {
 
-/// Calls each(i, trace) for every ray, where trace(hit) says whether it meets something.
-template <bool any_hit, class Function>
-void trace_in_packets(const AccelTree& tree, std::span<const Ray* const> rays, Function&& each) {
+/// Calls each(packet, index of its first ray, number of its rays).
+template <class Function>
+void for_each_packet(const AccelTree& tree, std::span<const Ray* const> rays, Function&& each) {
   for (std::size_t begin = 0; begin < rays.size(); begin += accel_detail::kPacketSize) {
-    const auto packet = rays.subspan(begin, std::min(accel_detail::kPacketSize, rays.size() - begin));
-    const auto points = accel_detail::find_entry_points<simd::Float8>(tree, packet);
-    for (std::size_t i = begin; i < begin + packet.size(); ++i)
-      each(i, [&](Hit& hit) {
-        return accel_detail::trace_from<simd::Float8, any_hit>(tree, points, *rays[i], hit);
-      });
+    const std::size_t count = std::min(accel_detail::kPacketSize, rays.size() - begin);
+    each(accel_detail::Packet<simd::Float8>(tree, rays.subspan(begin, count)), begin, count);
   }
 }
 
@@ -34,8 +30,8 @@ void Accel::intersect(std::span<const Ray* const> rays, std::span<Hit> hits) con
     for (Hit& hit : hits.first(rays.size())) hit.t = kInfinity;
     return;
   }
-  trace_in_packets<false>(*tree_, rays, [&](std::size_t i, auto&& trace) {
-    if (!trace(hits[i])) hits[i].t = kInfinity;
+  for_each_packet(*tree_, rays, [&](const auto& packet, std::size_t begin, std::size_t count) {
+    packet.intersect(hits.subspan(begin, count));
   });
 }
 
@@ -50,9 +46,8 @@ void Accel::occluded(std::span<const Ray* const> rays, std::span<bool> result) c
     std::fill_n(result.begin(), rays.size(), false);
     return;
   }
-  trace_in_packets<true>(*tree_, rays, [&](std::size_t i, auto&& trace) {
-    Hit unused;
-    result[i] = trace(unused);
+  for_each_packet(*tree_, rays, [&](const auto& packet, std::size_t begin, std::size_t count) {
+    packet.occluded(result.subspan(begin, count));
   });
 }
 

@@ -54,7 +54,7 @@ void PathTracer::intersect(int depth) {
   arrived_.clear();
   missed_.clear();
   hits_.resize(paths_.size());
-  // Only what a camera sends is neighbours.
+  // Neighbours they are as long as they come from the camera.
   const bool together = depth == 1;
   if (together) {
     rays_.clear();

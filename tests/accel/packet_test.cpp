@@ -99,7 +99,7 @@ TEST_F(AccelTies, TheFirstOfCoincidentPrimitivesIsFound) {
 }
 
 /// The ways in which rays can be neighbours, or not.
-enum class Company { pinhole, lens, parallel, to_a_light, just_far_enough, one, none };
+enum class Company { pinhole, lens, parallel, to_a_light, just_far_enough, diagonal, one, none };
 
 std::vector<Ray> make_packet(Company company, const TestScene& scene, Random& random, std::size_t count) {
   const vec3 eye = random.in_cube(3), target = some_vertex(scene, random);
@@ -114,7 +114,16 @@ std::vector<Ray> make_packet(Company company, const TestScene& scene, Random& ra
     case Company::lens: rays.push_back({near_eye, 0, glm::normalize(there - near_eye), kInfinity}); break;
     case Company::parallel: rays.push_back({near_eye, 0, target - eye, kInfinity}); break;
     case Company::to_a_light: rays.push_back({near_target, 0, eye - near_target, 1}); break;
-    case Company::just_far_enough: rays.push_back({near_eye, 0, target - near_eye, 1 + 0x1p-20f}); break;
+    case Company::just_far_enough: { // or from just too far on
+      const float t_min = i % 3 ? 0 : 1 + 0x1p-21f;
+      rays.push_back({near_eye, t_min, target - near_eye, 1 + 0x1p-20f});
+      break;
+    }
+    case Company::diagonal: { // some advance most along one axis, some along another
+      const vec3 from = target + glm::length(eye) * vec3(1, 1 + random.uniform(-1, 1) * 0x1p-22f, 0.3f);
+      rays.push_back({from, 0, target - from, kInfinity});
+      break;
+    }
     case Company::one: rays.assign({{eye, 0, target - eye, kInfinity}}); break;
     case Company::none: {
       const vec3 from = random.in_cube(3);
@@ -139,25 +148,24 @@ protected:
     const auto occluded = std::make_unique<bool[]>(rays.size());
     accel.occluded(pointers, {occluded.get(), rays.size()});
     const AccelTree& tree = *AccelAccess::tree(accel);
-    const auto portable = accel_detail::find_entry_points<simd::PortableFloat8>(
-        tree, std::span(pointers).first(std::min(accel_detail::kPacketSize, pointers.size())));
+    const auto first = std::span(pointers).first(std::min(accel_detail::kPacketSize, pointers.size()));
+    std::vector<Hit> portable(first.size());
+    accel_detail::Packet<simd::PortableFloat8>(tree, first).intersect(portable);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const auto alone = accel.intersect(rays[i]);
       ++(alone ? hits : misses);
       ASSERT_EQ(occluded[i], alone.has_value()) << i;
       ASSERT_EQ(together[i].t < kInfinity, alone.has_value()) << i;
       if (alone) { ASSERT_TRUE(same(together[i], *alone)) << i << ": " << alone->primitive; }
-      if (i >= accel_detail::kPacketSize) continue;
-      Hit hit;
-      const bool met = accel_detail::trace_from<simd::PortableFloat8, false>(tree, portable, rays[i], hit);
-      ASSERT_EQ(met, alone.has_value()) << i;
-      if (met) { ASSERT_TRUE(same(hit, *alone)) << i; }
+      if (i >= portable.size()) continue;
+      ASSERT_EQ(portable[i].t < kInfinity, alone.has_value()) << i;
+      if (alone) { ASSERT_TRUE(same(portable[i], *alone)) << i; }
     }
   }
   void check(const TestScene& scene, int packets) {
     const Accel accel = Accel::build(scene.input());
     for (Company company : {Company::pinhole, Company::lens, Company::parallel, Company::to_a_light,
-                            Company::just_far_enough, Company::one, Company::none})
+                            Company::just_far_enough, Company::diagonal, Company::one, Company::none})
       for (int i = 0; i < packets; ++i) {
         SCOPED_TRACE(testing::Message() << "company " << static_cast<int>(company) << ", packet " << i);
         const std::size_t count = 1 + random.below(3 * accel_detail::kPacketSize);
@@ -256,31 +264,36 @@ TEST_F(AccelPackets, OverNothing) {
   nothing.intersect({}, {}); // no rays at all
 }
 
-/// Else nothing above would say anything: narrow packets begin far below the root, those that pass the tree
-/// by nowhere, wide and mixed ones at the root.
+/// Else nothing above would say anything: narrow packets test few triangles, those that pass the tree by
+/// none, wide ones begin below the root, mixed ones there.
 TEST_F(AccelPackets, BeginWhereTheirWaysPart) {
   TestScene scene;
   add_grid(scene, 200, [](vec2 p) { return 0.1f * p.x; });
   const Accel accel = Accel::build(scene.input());
   const AccelTree& tree = *AccelAccess::tree(accel);
-  auto entry_points = [&](vec3 target, float spread) {
+  auto ways = [&](vec3 target, float spread) {
     std::vector<Ray> rays;
     const vec3 eye(0.1f, 0.2f, 3);
     for (int i = 0; i < 64; ++i)
       rays.push_back({eye, 0, target + spread * random.in_cube() - eye, kInfinity});
     std::vector<const Ray*> pointers;
     for (const Ray& ray : rays) pointers.push_back(&ray);
-    return accel_detail::find_entry_points<simd::Float8>(tree, pointers);
+    return accel_detail::Packet<simd::Float8>(tree, pointers).ways();
   };
   for (int i = 0; i < 100; ++i) {
-    const auto narrow = entry_points(0.8f * vec3(vec2(random.in_cube()), 0), 1e-3f);
-    EXPECT_TRUE(narrow.only_leaves);
-    EXPECT_GT(narrow.count, 0u);
-    EXPECT_EQ(entry_points(vec3(5, 0, 0), 1e-3f).count, 0u);
+    const vec3 target = 0.8f * vec3(vec2(random.in_cube()), 0);
+    const auto narrow = ways(target, 1e-3f), wide = ways(target, 0.1f), astray = ways(vec3(5, 0, 0), 1e-3f);
+    EXPECT_TRUE(narrow.few_triangles);
+    EXPECT_GT(narrow.triangles, 0u);
+    EXPECT_LT(narrow.triangles, 20u);
+    EXPECT_FALSE(wide.few_triangles);
+    EXPECT_GT(wide.entry_points, 1u);
+    EXPECT_TRUE(astray.few_triangles);
+    EXPECT_EQ(astray.triangles, 0u);
   }
-  const auto mixed = entry_points(vec3(0, 0, 3), 3);
-  EXPECT_EQ(mixed.count, 1u);
-  EXPECT_TRUE(mixed.at[0].value == tree.root);
+  const auto mixed = ways(vec3(0, 0, 3), 3);
+  EXPECT_FALSE(mixed.few_triangles);
+  EXPECT_EQ(mixed.entry_points, 1u);
 }
 
 } // namespace

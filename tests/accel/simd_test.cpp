@@ -69,6 +69,21 @@ TYPED_TEST(SimdFloat8, Comparisons) {
 }
 
 /// For every set of lanes, with equal keys among them.
+TYPED_TEST(SimdFloat8, SelectsLanes) {
+  using F = TypeParam;
+  // Among them bits that are no number: they come through as they are.
+  const Lanes a{{1, -2, 0, std::bit_cast<float>(0x7f800001u), 4, kInfinity, -0.0f, 1e-40f}},
+      b{{2, -2, 3, 1, std::bit_cast<float>(0xffffffffu), -kInfinity, 0, 3}};
+  for (simd::LaneMask mask = 0; mask <= simd::kAllLanes; ++mask) {
+    Lanes result;
+    select_lanes(mask, F::load(a.f.data()), F::load(b.f.data())).store(result.f.data());
+    for (std::size_t i = 0; i < 8; ++i) {
+      const float& expected = mask >> i & 1 ? a.f[i] : b.f[i];
+      EXPECT_EQ(std::memcmp(&result.f[i], &expected, sizeof(float)), 0) << mask << ", lane " << i;
+    }
+  }
+}
+
 TYPED_TEST(SimdFloat8, TakesTheFirstAndSorts) {
   using F = TypeParam;
   using Entry = simd::Keyed<std::uint32_t>;
