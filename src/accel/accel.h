@@ -7,8 +7,8 @@
 //
 // Triangles are watertight: a ray that passes exactly through an edge or a vertex that triangles share hits
 // at least one of them. The closest hit, the any-hit answer and the tree are the same for any number of
-// threads and for any SIMD instruction set. Of primitives that are hit at the same t, it is always the same
-// one that is found, whatever tree they are in.
+// threads and for any SIMD instruction set, and the hits for any company of rays. Of primitives that are hit
+// at the same t the first is found (but where one is seen so nearly edge-on that its t is unsure).
 
 #include "core/bounds.h"
 #include "core/progress.h"
@@ -114,12 +114,12 @@ public:
   std::optional<Hit> intersect(const Ray& ray) const;
   /// The same without an optional to copy; `hit` is undefined where nothing is met.
   bool intersect(const Ray& ray, Hit& hit) const;
-  /// The same for many rays at once: hits[i] is that of *rays[i], its t infinite where nothing is met. Faster
-  /// if neighbours in the list are neighbours in space, as camera rays are.
+  /// The same for many rays at once: hits[i] is that of *rays[i], its t infinite where nothing is met. There
+  /// are as many hits, or more. Faster if neighbours in the list are neighbours in space, as camera rays are.
   void intersect(std::span<const Ray* const> rays, std::span<Hit> hits) const;
   /// Whether there is any hit with t in (t_min, t_max): exactly when intersect finds one.
   bool occluded(const Ray& ray) const;
-  /// The same for many rays, as intersect() has it.
+  /// The same for many rays, as intersect() has it: result[i] is that of *rays[i].
   void occluded(std::span<const Ray* const> rays, std::span<bool> result) const;
   /// What intersect(ray) costs.
   TraversalCost cost(const Ray& ray) const;

@@ -6,15 +6,16 @@
 // Algorithm", ACM TOG 24(3); here with up to kMaxEntryPoints of them). Where that ends at leaves and the
 // frustum meets but few of their triangles, eight rays at a time are tested with each. Else every ray goes on
 // alone from the entry points, so that rays that part company lose nothing. What a ray meets is the same in
-// either way.
+// any way: see Packet.
 //
-// Nanoseconds of a ray alone and in a packet, 512 x 512 pixels, at 1 and at 16 samples a pixel:
+// Nanoseconds of a ray alone and in a packet, 512 x 512 pixels, at 1 and at 16 samples a pixel (a busy
+// machine: to 10 %):
 //
 //                               camera rays             their shadow rays
-//   Cornell box                 34   8    36   9        29  16     31  18
-//   bunny, 69,000 triangles     79  57    60  20        97  94     82  58
-//   Sponza, 66,000             122  68   115  33        84  86     74  48
-//   sphere, 1.3 million        151 137    69  40       201 213    144 108
+//   Cornell box                 35   9    37  10        31  20     31  19
+//   bunny, 69,000 triangles     79  68    61  22        97  87     82  57
+//   Sponza, 66,000             118  72   115  42        91  87     74  51
+//   sphere, 1.3 million        149 131    70  43       195 197    142 101
 //
 // The whole render of the Cornell box is 1.10 times as fast where paths do not split, 1.03 times where they
 // split in two.
@@ -24,29 +25,24 @@
 
 namespace candela::accel_detail {
 
-/// At 8, rays in Sponza take 1.2 to 1.6 times as long; at 24, what is 5 % faster in Sponza is 5 % slower on
-/// the sphere.
-inline constexpr std::size_t kMaxEntryPoints = 16;
 /// From 12 to 48, no ray takes 10 % more or less time.
 inline constexpr std::size_t kMaxTriangles = 24;
 
-/// Subtrees and leaves that hold all that the rays of a packet can meet, the one to enter first last.
+/// Where the rays of a packet begin: subtrees or leaves that hold all that they can meet, the one to enter
+/// first last.
 struct EntryPoints {
   std::array<Waiting, kMaxEntryPoints> at;
+  std::array<ChildPlace, kMaxEntryPoints> place; ///< parallel to at
   std::size_t count = 0;
-  bool only_leaves = true;
 
   std::span<const Waiting> span() const { return {at.data(), count}; }
 };
 
+/// All leaves that the packet may meet, or (false) more than there is room for.
 template <class F>
-EntryPoints find_entry_points(const AccelTree& tree, const std::optional<PacketFrustum<F>>& frustum) {
-  EntryPoints points;
-  points.at[points.count++] = {tree.root, 0};
-  if (!frustum) {
-    points.only_leaves = tree.root.is_leaf();
-    return points;
-  }
+bool find_leaves(const AccelTree& tree, const PacketFrustum<F>& frustum, EntryPoints& points) {
+  points.at[0] = {tree.root, 0}, points.place[0] = {nullptr, 0};
+  points.count = 1;
   for (std::size_t i = 0; i < points.count;) {
     const ChildRef ref = points.at[i].value;
     if (ref.is_leaf()) {
@@ -55,9 +51,40 @@ EntryPoints find_entry_points(const AccelTree& tree, const std::optional<PacketF
     }
     const WideNode& node = tree.nodes[ref.index()];
     F t_enter;
-    const simd::LaneMask met = frustum->intersect(node, t_enter);
-    if (points.count - 1 + static_cast<std::size_t>(std::popcount(met)) > kMaxEntryPoints) {
-      points.only_leaves = false;
+    const simd::LaneMask met = frustum.intersect(node, t_enter);
+    if (points.count - 1 + static_cast<std::size_t>(std::popcount(met)) > kMaxEntryPoints) return false;
+    --points.count; // its children instead
+    points.at[i] = points.at[points.count], points.place[i] = points.place[points.count];
+    alignas(32) std::array<float, kWidth> key;
+    t_enter.store(key.data());
+    simd::for_each_lane(met, [&](int lane) {
+      const auto k = static_cast<std::size_t>(lane);
+      points.at[points.count] = {node.child[k], key[k]};
+      points.place[points.count++] = {&node, static_cast<std::uint32_t>(lane)};
+    });
+  }
+  // The farthest first.
+  for (std::size_t i = 1; i < points.count; ++i)
+    for (std::size_t k = i; k > 0 && points.at[k - 1].key < points.at[k].key; --k) {
+      std::swap(points.at[k - 1], points.at[k]);
+      std::swap(points.place[k - 1], points.place[k]);
+    }
+  return true;
+}
+
+/// Subtrees that hold all that the packet can meet. No leaves, for these are met only by rays that meet their
+/// boxes, too.
+template <class F>
+void find_subtrees(const AccelTree& tree, const PacketFrustum<F>& frustum, EntryPoints& points) {
+  points.at[0] = {tree.root, 0};
+  points.count = 1;
+  for (std::size_t i = 0; i < points.count;) {
+    const WideNode& node = tree.nodes[points.at[i].value.index()];
+    F t_enter;
+    const simd::LaneMask met = frustum.intersect(node, t_enter);
+    bool leaf = false;
+    simd::for_each_lane(met, [&](int lane) { leaf |= node.child[static_cast<std::size_t>(lane)].is_leaf(); });
+    if (leaf || points.count - 1 + static_cast<std::size_t>(std::popcount(met)) > kMaxEntryPoints) {
       ++i;
       continue;
     }
@@ -71,110 +98,137 @@ EntryPoints find_entry_points(const AccelTree& tree, const std::optional<PacketF
   }
   std::sort(points.at.begin(), points.at.begin() + static_cast<std::ptrdiff_t>(points.count),
             [](const Waiting& a, const Waiting& b) { return a.key > b.key; });
-  return points;
 }
 
 /// The triangles that a packet can meet.
 class FewTriangles {
 public:
+  struct Placed : PackedTriangle {
+    ChildPlace leaf; ///< one that it is in
+  };
+
   /// False where they are many, or where the packet can meet something else.
   template <class F>
   bool find(const AccelTree& tree, const EntryPoints& points, const PacketFrustum<F>& frustum) {
     count_ = 0;
-    for (const Waiting& leaf : points.span()) {
-      if (leaf.value.kind() != LeafKind::triangles) return false;
-      const TrianglePack& pack = tree.triangles[leaf.value.index()];
+    for (std::size_t i = 0; i < points.count; ++i) {
+      const ChildRef leaf = points.at[i].value;
+      if (leaf.kind() != LeafKind::triangles) return false;
+      const TrianglePack& pack = tree.triangles[leaf.index()];
       const simd::LaneMask met = frustum.intersect(pack);
       if (count_ + static_cast<std::size_t>(std::popcount(met)) > kMaxTriangles) return false;
       simd::for_each_lane(met, [&](int lane) {
         const auto k = static_cast<std::size_t>(lane);
-        insert({&pack, k, pack.primitive[k]});
+        insert({{&pack, k, pack.primitive[k]}, points.place[i]});
       });
     }
     return true;
   }
-  std::span<const PackedTriangle> span() const { return {triangles_.data(), count_}; }
+  std::span<const Placed> span() const { return {triangles_.data(), count_}; }
 
 private:
   /// By primitive, so that the first of those at the same t is the one that precedes; once, if it is in two
   /// leaves.
-  void insert(const PackedTriangle& triangle) {
+  void insert(const Placed& triangle) {
     const auto end = triangles_.begin() + static_cast<std::ptrdiff_t>(count_);
-    const auto at = std::lower_bound(
-        triangles_.begin(), end, triangle.primitive,
-        [](const PackedTriangle& t, std::uint32_t primitive) { return t.primitive < primitive; });
+    const auto at =
+        std::lower_bound(triangles_.begin(), end, triangle.primitive,
+                         [](const Placed& t, std::uint32_t primitive) { return t.primitive < primitive; });
     if (at != end && at->primitive == triangle.primitive) return;
     std::copy_backward(at, end, end + 1);
     *at = triangle;
     ++count_;
   }
 
-  std::array<PackedTriangle, kMaxTriangles> triangles_;
+  std::array<Placed, kMaxTriangles> triangles_;
   std::size_t count_ = 0;
 };
 
 /// Neighbouring rays, of which there is one at least.
+///
+/// A ray alone meets a leaf only if it meets its box before the closest hit so far. That is no matter but
+/// where a triangle is seen nearly edge-on: there t may be off by more than boxes are padded for. So a hit in
+/// a leaf that was found with the frustum stands only if the box is met up to there; then the ray alone would
+/// find it, too, and nothing closer. Else it is asked.
 template <class F>
 class Packet {
 public:
   Packet(const AccelTree& tree, std::span<const Ray* const> rays) : tree_(tree), rays_(rays) {
     const bool alike = lanes_.load(rays);
     const auto frustum = PacketFrustum<F>::around(lanes_, tree);
-    points_ = find_entry_points(tree, frustum);
-    few_ = frustum && alike && points_.only_leaves && triangles_.find(tree, points_, *frustum);
+    if (!frustum) return;
+    if (find_leaves(tree, *frustum, points_))
+      way_ = alike && triangles_.find(tree, points_, *frustum) ? Way::few_triangles : Way::leaves;
+    else
+      find_subtrees(tree, *frustum, points_), way_ = Way::subtrees;
   }
 
   /// As trace, for all; the t of rays that meet nothing becomes infinite.
   void intersect(std::span<Hit> hits) const {
-    if (few_) {
+    if (way_ == Way::few_triangles) {
       for (std::size_t group = 0; group < lanes_.groups; ++group) meet_few(group, hits);
       return;
     }
     for (std::size_t i = 0; i < rays_.size(); ++i)
-      if (!trace_alone<false>(i, hits[i])) hits[i].t = kInfinity;
+      if (!trace_one<false>(*rays_[i], hits[i])) hits[i].t = kInfinity;
   }
   void occluded(std::span<bool> result) const {
-    if (few_) {
-      for (std::size_t group = 0; group < lanes_.groups; ++group) {
-        const simd::LaneMask met = meet_any(group);
-        for (std::size_t i = group * kWidth; i < std::min((group + 1) * kWidth, rays_.size()); ++i)
-          result[i] = met >> (i - group * kWidth) & 1;
-      }
+    if (way_ == Way::few_triangles) {
+      for (std::size_t group = 0; group < lanes_.groups; ++group) meet_any(group, result);
       return;
     }
     Hit unused;
-    for (std::size_t i = 0; i < rays_.size(); ++i) result[i] = trace_alone<true>(i, unused);
+    for (std::size_t i = 0; i < rays_.size(); ++i) result[i] = trace_one<true>(*rays_[i], unused);
   }
 
-  /// How the rays are traced.
-  struct Ways {
-    bool few_triangles;       ///< all rays with each of
-    std::size_t triangles;    ///< so many
-    std::size_t entry_points; ///< or each ray from there
+  enum class Way {
+    few_triangles, ///< eight rays at a time with each of them
+    leaves,        ///< each ray with each leaf
+    subtrees,      ///< each ray from there
+    root,          ///< the rays are no neighbours
   };
-  Ways ways() const { return {few_, triangles_.span().size(), points_.count}; }
+  Way way() const { return way_; }
+  std::size_t triangle_count() const { return triangles_.span().size(); }
+  std::size_t entry_point_count() const { return points_.count; }
 
 private:
+  /// Whether the ray meets the box before t_max.
+  bool meets_box(const Ray& ray, const ChildPlace& place, float t_max) const {
+    if (place.node == nullptr) return true;
+    F unused;
+    const simd::LaneMask met =
+        BoxRay<F>(ray, tree_).intersect(*place.node, F(std::max(ray.t_min, 0.0f)), F(t_max), unused);
+    return met >> place.lane & 1;
+  }
+
   template <bool any_hit>
-  bool trace_alone(std::size_t i, Hit& hit) const {
+  bool trace_one(const Ray& ray, Hit& hit) const {
     NoCost free_of_charge;
-    if (points_.only_leaves)
-      return trace_subtrees<F, any_hit, true>(tree_, points_.span(), *rays_[i], hit, free_of_charge);
-    return trace_subtrees<F, any_hit, false>(tree_, points_.span(), *rays_[i], hit, free_of_charge);
+    if (way_ == Way::subtrees && points_.count == 0) return false;
+    if (way_ == Way::subtrees)
+      return trace_subtrees<F, any_hit>(tree_, points_.span(), ray, hit, free_of_charge);
+    if (way_ == Way::leaves) {
+      std::size_t last = 0;
+      if (!trace_leaves<F, any_hit>(tree_, points_.span(), ray, hit, last)) return false;
+      if (meets_box(ray, points_.place[last], any_hit ? ray.t_max : hit.t)) return true;
+    }
+    return trace<F, any_hit>(tree_, ray, hit);
   }
 
   void meet_few(std::size_t group, std::span<Hit> hits) const {
     const std::size_t first = group * kWidth;
     const ShearedRay<F> ray = lanes_.group(group);
+    const BoxRays<F> box_rays(lanes_, group, tree_);
     const F t_min = F::load(&lanes_.t_min[first]);
     F t_max = F::load(&lanes_.t_max[first]), u(0.0f), v(0.0f), primitive(0.0f);
-    simd::LaneMask met = 0;
-    for (const PackedTriangle& triangle : triangles_.span()) {
+    simd::LaneMask met = 0, stands = 0;
+    for (const FewTriangles::Placed& triangle : triangles_.span()) {
       const TriangleHits<F> found(triangle, ray);
       if (!found.lanes) continue;
       const simd::LaneMask closer = found.lanes & less(t_min, found.t) & less(found.t, t_max);
       if (!closer) continue;
       met |= closer;
+      stands = (stands & ~closer) | (closer & box_rays.intersect(triangle.leaf, t_min, found.t));
       const F inverse = F(1.0f) / found.determinant;
       t_max = select_lanes(closer, found.t, t_max);
       u = select_lanes(closer, found.edge.v * inverse, u);
@@ -184,23 +238,36 @@ private:
     alignas(32) std::array<float, kWidth> ts, us, vs, primitives;
     select_lanes(met, t_max, F(kInfinity)).store(ts.data());
     u.store(us.data()), v.store(vs.data()), primitive.store(primitives.data());
-    for (std::size_t k = 0; k < std::min<std::size_t>(kWidth, rays_.size() - first); ++k)
-      hits[first + k] = {ts[k],       us[k],
-                         vs[k],       std::bit_cast<std::uint32_t>(primitives[k]),
-                         kNoInstance, PrimitiveKind::triangle};
+    for (std::size_t k = 0; k < std::min<std::size_t>(kWidth, rays_.size() - first); ++k) {
+      Hit& hit = hits[first + k];
+      hit = {ts[k],       us[k],
+             vs[k],       std::bit_cast<std::uint32_t>(primitives[k]),
+             kNoInstance, PrimitiveKind::triangle};
+      if (((met & ~stands) >> k & 1) && !trace<F, false>(tree_, *rays_[first + k], hit)) hit.t = kInfinity;
+    }
   }
 
-  simd::LaneMask meet_any(std::size_t group) const {
+  void meet_any(std::size_t group, std::span<bool> result) const {
+    const std::size_t first = group * kWidth;
     const ShearedRay<F> ray = lanes_.group(group);
-    const F t_min = F::load(&lanes_.t_min[group * kWidth]), t_max = F::load(&lanes_.t_max[group * kWidth]);
-    simd::LaneMask met = 0;
-    for (const PackedTriangle& triangle : triangles_.span()) {
+    const F t_min = F::load(&lanes_.t_min[first]), t_max = F::load(&lanes_.t_max[first]);
+    std::optional<BoxRays<F>> box_rays;
+    simd::LaneMask met = 0, stands = 0;
+    for (const FewTriangles::Placed& triangle : triangles_.span()) {
       const TriangleHits<F> found(triangle, ray);
       if (!found.lanes) continue;
-      met |= found.lanes & less(t_min, found.t) & less(found.t, t_max);
-      if (met == simd::kAllLanes) break;
+      const simd::LaneMask hit = found.lanes & less(t_min, found.t) & less(found.t, t_max);
+      if (!(hit & ~stands)) continue;
+      met |= hit;
+      if (!box_rays) box_rays.emplace(lanes_, group, tree_);
+      stands |= hit & box_rays->intersect(triangle.leaf, t_min, t_max);
+      if (stands == simd::kAllLanes) break;
     }
-    return met;
+    for (std::size_t k = 0; k < std::min<std::size_t>(kWidth, rays_.size() - first); ++k) {
+      Hit unused;
+      result[first + k] =
+          (stands >> k & 1) || ((met >> k & 1) && trace<F, true>(tree_, *rays_[first + k], unused));
+    }
   }
 
   const AccelTree& tree_;
@@ -208,7 +275,7 @@ private:
   PacketRays<F> lanes_;
   EntryPoints points_;
   FewTriangles triangles_;
-  bool few_ = false;
+  Way way_ = Way::root;
 };
 
 } // namespace candela::accel_detail

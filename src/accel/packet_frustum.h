@@ -17,8 +17,7 @@ inline constexpr std::size_t kPacketSize = 64;
 template <class F>
 struct alignas(64) PacketRays {
   using Floats = std::array<float, kPacketSize>; // a multiple of the alignment
-  std::array<Floats, 3> origin;
-  Floats direction_z; ///< signed, per unit of t
+  std::array<Floats, 3> origin, direction;
   Floats shear_x, shear_y, scale_z;
   Floats t_min, t_max;
   std::array<std::size_t, 3> axis; ///< of the world: which are x, y and z here
@@ -33,16 +32,15 @@ struct alignas(64) PacketRays {
     for (std::size_t i = 0; i < groups * kWidth; ++i) {
       const Ray& ray = *rays[std::min(i, rays.size() - 1)];
       const float *o = glm::value_ptr(ray.origin), *d = glm::value_ptr(ray.direction);
-      for (std::size_t a = 0; a < 3; ++a) origin[a][i] = o[axis[a]];
-      shear_x[i] = d[axis[0]], shear_y[i] = d[axis[1]], direction_z[i] = d[z]; // to be divided
+      for (std::size_t a = 0; a < 3; ++a) origin[a][i] = o[axis[a]], direction[a][i] = d[axis[a]];
       t_min[i] = std::max(ray.t_min, 0.0f), t_max[i] = ray.t_max;
       alike &= largest_axis(ray.direction) == z;
     }
     for (std::size_t i = 0; i < groups * kWidth; i += kWidth) {
-      const F scale = F(1.0f) / F::load(&direction_z[i]);
+      const F scale = F(1.0f) / F::load(&direction[2][i]);
       scale.store(&scale_z[i]);
-      (F::load(&shear_x[i]) * scale).store(&shear_x[i]);
-      (F::load(&shear_y[i]) * scale).store(&shear_y[i]);
+      (F::load(&direction[0][i]) * scale).store(&shear_x[i]);
+      (F::load(&direction[1][i]) * scale).store(&shear_y[i]);
     }
     return alike;
   }
@@ -60,6 +58,54 @@ struct alignas(64) PacketRays {
             F::load(&shear_y[i]),
             F::load(&scale_z[i])};
   }
+};
+
+/// A child of a node, or (null) the root.
+struct ChildPlace {
+  const WideNode* node;
+  std::uint32_t lane;
+};
+
+/// Eight rays of a packet and single boxes: bit by bit what BoxRay makes of each ray.
+template <class F>
+class BoxRays {
+public:
+  BoxRays(const PacketRays<F>& rays, std::size_t group, const AccelTree& tree) {
+    const F zero(0.0f), one(1.0f);
+    auto magnitude = [&](F x) { return max(x, zero - x); };
+    std::array<F, 3> o, d;
+    F reach = zero;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t axis = rays.axis[a];
+      o[axis] = F::load(&rays.origin[a][group * kWidth]),
+      d[axis] = F::load(&rays.direction[a][group * kWidth]);
+      reach =
+          max(reach, max(magnitude(F(tree.lower[axis]) - o[axis]), magnitude(F(tree.upper[axis]) - o[axis])));
+    }
+    const F pad = reach * F(0x1p-21f);
+    for (std::size_t a = 0; a < 3; ++a) {
+      inverse_[a] = one / d[a]; // of a negative zero, too, with its sign
+      const F shift = simd::with_sign_of(pad + magnitude(o[a]) * F(0x1p-22f), inverse_[a]);
+      origin_near_[a] = o[a] + shift, origin_far_[a] = o[a] - shift;
+      inverse_near_[a] = inverse_[a] * F(1 - gamma_bound(5)),
+      inverse_far_[a] = inverse_[a] * F(1 + gamma_bound(5));
+    }
+  }
+
+  /// Those that meet the box in [t_min, t_max]. The root is met by all.
+  simd::LaneMask intersect(const ChildPlace& place, F t_min, F t_max) const {
+    if (place.node == nullptr) return simd::kAllLanes;
+    F enter = t_min, leave = t_max;
+    for (std::size_t a = 3; a-- > 0;) {
+      const F lower(place.node->box[a][0][place.lane]), upper(place.node->box[a][1][place.lane]), zero(0.0f);
+      enter = max((select_less(inverse_[a], zero, upper, lower) - origin_near_[a]) * inverse_near_[a], enter);
+      leave = min((select_less(inverse_[a], zero, lower, upper) - origin_far_[a]) * inverse_far_[a], leave);
+    }
+    return less_equal(enter, leave);
+  }
+
+private:
+  std::array<F, 3> origin_near_, origin_far_, inverse_, inverse_near_, inverse_far_; ///< by axis of the world
 };
 
 /// What a packet of rays may pass through: all points that lie ahead of their origins along z, no farther
@@ -80,7 +126,7 @@ public:
     };
     PacketFrustum f;
     f.axis_ = rays.axis;
-    f.down_ = rays.direction_z[0] < 0;
+    f.down_ = rays.direction[2][0] < 0;
     std::array<Extent, 3> origin;
     std::array<Extent, 2> slope;
     Extent advance, range; // along z, per unit of t and at the end
@@ -97,8 +143,8 @@ public:
         sane &= less_equal(s[a], steepest) & less_equal(F(0.0f) - s[a], steepest);
         slope[a].grow(s[a]);
       }
-      const F speed = F::load(&rays.direction_z[i]) * sign;
-      sane &= less(F(0.0f), speed);
+      const F speed = F::load(&rays.direction[2][i]) * sign;
+      sane &= less(F(0.0f), speed) & less(speed, far_away);
       advance.grow(speed);
       range.grow(F::load(&rays.t_max[i]) * speed);
     }

@@ -115,9 +115,34 @@ template <class F, bool any_hit, class Cost>
   return false;
 }
 
-/// As trace, for a ray that can meet nothing but these subtrees and leaves of the tree, of which there is one
-/// at least. The last is entered first.
-template <class F, bool any_hit, bool only_leaves, class Cost>
+/// As trace, for a ray that can meet nothing but these leaves; no boxes, no stack. `last` becomes the index
+/// of the one that hit is in.
+template <class F, bool any_hit>
+bool trace_leaves(const AccelTree& tree, std::span<const Waiting> leaves, const Ray& ray, Hit& hit,
+                  std::size_t& last) {
+  const ShearedRay<F> sheared(ray);
+  const float t_min = std::max(ray.t_min, 0.0f);
+  float t_max = ray.t_max;
+  if constexpr (!any_hit) hit.t = std::numeric_limits<float>::quiet_NaN(); // see precedes
+  bool found = false;
+  NoCost free_of_charge;
+  for (std::size_t i = leaves.size(); i-- > 0 && leaves[i].key <= t_max;) {
+    const ChildRef leaf = leaves[i].value;
+    if (leaf.kind() == LeafKind::triangles) {
+      if (!meet_triangles<F, any_hit>(tree.triangles[leaf.index()], sheared, t_min, t_max, hit)) continue;
+    } else {
+      if (!meet_other_leaf<F, any_hit>(tree, ray, leaf, t_min, t_max, hit, free_of_charge)) continue;
+      if constexpr (!any_hit) t_max = hit.t;
+    }
+    found = true, last = i;
+    if constexpr (any_hit) break;
+  }
+  return found;
+}
+
+/// As trace, for a ray that can meet nothing but these subtrees of the tree, of which there is one at least.
+/// The last is entered first.
+template <class F, bool any_hit, class Cost>
 [[gnu::always_inline]] inline bool trace_subtrees(const AccelTree& tree, std::span<const Waiting> subtrees,
                                                   const Ray& ray, Hit& hit, Cost& cost) {
   const ShearedRay<F> sheared(ray);
@@ -133,14 +158,6 @@ template <class F, bool any_hit, bool only_leaves, class Cost>
     if constexpr (!any_hit) t_max = hit.t;
     return true;
   };
-  if constexpr (only_leaves) { // no boxes, no stack: half of what a ray costs in the Cornell box
-    for (std::size_t i = subtrees.size(); i-- > 0 && subtrees[i].key <= t_max;)
-      if (meet_leaf(subtrees[i].value)) {
-        found = true;
-        if constexpr (any_hit) break;
-      }
-    return found;
-  }
 
   // NaN would meet every box and walk the whole tree.
   vec3 sum = ray.origin + ray.direction;
@@ -190,7 +207,7 @@ template <class F, bool any_hit, bool only_leaves, class Cost>
 template <class F, bool any_hit, class Cost>
 bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost) {
   const Waiting root{tree.root, 0};
-  return trace_subtrees<F, any_hit, false>(tree, {&root, 1}, ray, hit, cost);
+  return trace_subtrees<F, any_hit>(tree, {&root, 1}, ray, hit, cost);
 }
 
 template <class F, bool any_hit>

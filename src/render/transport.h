@@ -15,7 +15,7 @@ inline Ray spawn_ray(const Surface& s, vec3 w) {
 /// The closest surface of the ray, looking through what is transparent with the chance of 1 - opacity; each
 /// crossing has a random number of its own. The ray then starts behind the last one that it passed.
 bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit, RayCounts& counts);
-/// The same where it is known what the ray meets first, or (`met`) that it meets nothing.
+/// The same where it is known what the ray meets first, or (not `met`) that it meets nothing.
 bool look_through(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met, Hit& hit,
                   RayCounts& counts);
 

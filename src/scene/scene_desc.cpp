@@ -217,9 +217,9 @@ Bounds3 shape_bounds(const Shape& shape) {
 
 namespace {
 
-/// Also what is not finite.
+/// Also what a transform made overflow.
 vec3 within_reach(vec3 p) {
-  auto limit = [](float x) { return std::abs(x) <= kMaxCoordinate ? x : std::copysign(kMaxCoordinate, x); };
+  auto limit = [](float x) { return std::isnan(x) ? 0 : std::clamp(x, -kMaxCoordinate, kMaxCoordinate); };
   return {limit(p.x), limit(p.y), limit(p.z)};
 }
 
