@@ -36,13 +36,26 @@ struct EntryPoints {
   std::size_t count = 0;
 
   std::span<const Waiting> span() const { return {at.data(), count}; }
+  void push(const Waiting& child, const ChildPlace& where) { at[count] = child, place[count++] = where; }
+  /// The last one takes its place.
+  void remove(std::size_t i) { --count, at[i] = at[count], place[i] = place[count]; }
+  void sort() {
+    for (std::size_t i = 1; i < count; ++i)
+      for (std::size_t k = i; k > 0 && at[k - 1].key < at[k].key; --k)
+        std::swap(at[k - 1], at[k]), std::swap(place[k - 1], place[k]);
+  }
 };
 
-/// All leaves that the packet may meet, or (false) more than there is room for.
+enum class Depth {
+  above_leaves, ///< no farther than to nodes of which the packet may meet a leaf
+  leaves,
+};
+
+/// Puts the children that the packet may meet in the place of their nodes, over and over. False where it has
+/// to end before it is through, for want of room.
 template <class F>
-bool find_leaves(const AccelTree& tree, const PacketFrustum<F>& frustum, EntryPoints& points) {
-  points.at[0] = {tree.root, 0}, points.place[0] = {nullptr, 0};
-  points.count = 1;
+bool descend(const AccelTree& tree, const PacketFrustum<F>& frustum, Depth depth, EntryPoints& points) {
+  bool through = true;
   for (std::size_t i = 0; i < points.count;) {
     const ChildRef ref = points.at[i].value;
     if (ref.is_leaf()) {
@@ -52,52 +65,25 @@ bool find_leaves(const AccelTree& tree, const PacketFrustum<F>& frustum, EntryPo
     const WideNode& node = tree.nodes[ref.index()];
     F t_enter;
     const simd::LaneMask met = frustum.intersect(node, t_enter);
-    if (points.count - 1 + static_cast<std::size_t>(std::popcount(met)) > kMaxEntryPoints) return false;
-    --points.count; // its children instead
-    points.at[i] = points.at[points.count], points.place[i] = points.place[points.count];
-    alignas(32) std::array<float, kWidth> key;
-    t_enter.store(key.data());
-    simd::for_each_lane(met, [&](int lane) {
-      const auto k = static_cast<std::size_t>(lane);
-      points.at[points.count] = {node.child[k], key[k]};
-      points.place[points.count++] = {&node, static_cast<std::uint32_t>(lane)};
-    });
-  }
-  // The farthest first.
-  for (std::size_t i = 1; i < points.count; ++i)
-    for (std::size_t k = i; k > 0 && points.at[k - 1].key < points.at[k].key; --k) {
-      std::swap(points.at[k - 1], points.at[k]);
-      std::swap(points.place[k - 1], points.place[k]);
-    }
-  return true;
-}
-
-/// Subtrees that hold all that the packet can meet. No leaves, for these are met only by rays that meet their
-/// boxes, too.
-template <class F>
-void find_subtrees(const AccelTree& tree, const PacketFrustum<F>& frustum, EntryPoints& points) {
-  points.at[0] = {tree.root, 0};
-  points.count = 1;
-  for (std::size_t i = 0; i < points.count;) {
-    const WideNode& node = tree.nodes[points.at[i].value.index()];
-    F t_enter;
-    const simd::LaneMask met = frustum.intersect(node, t_enter);
     bool leaf = false;
     simd::for_each_lane(met, [&](int lane) { leaf |= node.child[static_cast<std::size_t>(lane)].is_leaf(); });
-    if (leaf || points.count - 1 + static_cast<std::size_t>(std::popcount(met)) > kMaxEntryPoints) {
+    const bool room = points.count - 1 + static_cast<std::size_t>(std::popcount(met)) <= kMaxEntryPoints;
+    if (!room && depth == Depth::leaves) return false;
+    if (!room || (leaf && depth == Depth::above_leaves)) {
+      through &= room;
       ++i;
       continue;
     }
-    points.at[i] = points.at[--points.count]; // its children instead
+    points.remove(i);
     alignas(32) std::array<float, kWidth> key;
     t_enter.store(key.data());
     simd::for_each_lane(met, [&](int lane) {
       const auto k = static_cast<std::size_t>(lane);
-      points.at[points.count++] = {node.child[k], key[k]};
+      points.push({node.child[k], key[k]}, {&node, static_cast<std::uint32_t>(lane)});
     });
   }
-  std::sort(points.at.begin(), points.at.begin() + static_cast<std::ptrdiff_t>(points.count),
-            [](const Waiting& a, const Waiting& b) { return a.key > b.key; });
+  points.sort();
+  return through;
 }
 
 /// The triangles that a packet can meet.
@@ -157,10 +143,14 @@ public:
     const bool alike = lanes_.load(rays);
     const auto frustum = PacketFrustum<F>::around(lanes_, tree);
     if (!frustum) return;
-    if (find_leaves(tree, *frustum, points_))
-      way_ = alike && triangles_.find(tree, points_, *frustum) ? Way::few_triangles : Way::leaves;
-    else
-      find_subtrees(tree, *frustum, points_), way_ = Way::subtrees;
+    // A leaf is met only by rays that meet its box, too: where these go on alone, they begin above.
+    way_ = Way::subtrees;
+    points_.push({tree.root, 0}, {nullptr, 0});
+    const bool room = descend(tree, *frustum, Depth::above_leaves, points_);
+    EntryPoints leaves = points_;
+    if (!room || !descend(tree, *frustum, Depth::leaves, leaves)) return;
+    points_ = leaves;
+    way_ = alike && triangles_.find(tree, points_, *frustum) ? Way::few_triangles : Way::leaves;
   }
 
   /// As trace, for all; the t of rays that meet nothing becomes infinite.
