@@ -19,6 +19,10 @@
 //
 // The whole render of the Cornell box is 1.10 times as fast where paths do not split, 1.03 times where they
 // split in two.
+//
+// Rays that are no neighbours, too, were tried eight at a time, with all triangles of a Cornell box: 35 ns
+// instead of 59 where the lanes are full, but they mostly are not: the whole render is 1.01 to 1.03 times as
+// fast, which is not worth it.
 
 #include "accel/packet_frustum.h"
 #include "accel/traversal.h"
