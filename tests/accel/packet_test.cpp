@@ -241,7 +241,7 @@ TEST_F(AccelPackets, OverTrianglesSeenEdgeOn) {
     TestScene scene;
     const vec3 foot(vec2(random.in_cube()), 0), tip = foot + vec3(random.uniform(), random.uniform(), 0.5f);
     scene.add_triangle(foot, foot + vec3(0, 0, 1), tip);
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < (i % 2 ? 60 : 1000); ++k) { // a tree of one node, and deeper ones
       const vec3 at = 2.0f * random.in_cube();
       scene.add_triangle(at, at + 0.1f * random.in_cube(), at + 0.1f * random.in_cube());
     }
