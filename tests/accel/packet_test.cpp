@@ -290,6 +290,40 @@ TEST_F(AccelPackets, BoxesAreMetAsByRaysAlone) {
   EXPECT_GT(missed, 1000);
 }
 
+/// What rays that go on alone rely on: they begin above leaves, nearest last, and know the box of each.
+TEST_F(AccelPackets, EntryPointsStandForTheirBoxes) {
+  using F = simd::Float8;
+  TestScene scene;
+  add_grid(scene, 60, [](vec2 p) { return 0.2f * std::sin(5 * p.x) * std::cos(7 * p.y); });
+  const Accel accel = Accel::build(scene.input());
+  const AccelTree& tree = *AccelAccess::tree(accel);
+  std::size_t subtrees = 0, leaves = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::vector<Ray> rays = make_packet(Company::pinhole, scene, random, 64);
+    std::vector<const Ray*> pointers;
+    for (const Ray& ray : rays) pointers.push_back(&ray);
+    accel_detail::PacketRays<F> lanes;
+    lanes.load(pointers);
+    const auto frustum = accel_detail::PacketFrustum<F>::around(lanes, tree);
+    if (!frustum) continue;
+    accel_detail::EntryPoints points;
+    points.push({tree.root, 0}, {nullptr, 0});
+    for (accel_detail::Depth depth : {accel_detail::Depth::above_leaves, accel_detail::Depth::leaves}) {
+      const bool through = descend(tree, *frustum, depth, points);
+      if (!through && depth == accel_detail::Depth::leaves) break; // there may be both
+      for (std::size_t k = 0; k < points.count; ++k) {
+        const accel_detail::ChildPlace& place = points.place[k];
+        ASSERT_EQ(points.at[k].value.is_leaf(), depth == accel_detail::Depth::leaves);
+        if (place.node != nullptr) { ASSERT_EQ(place.node->child[place.lane], points.at[k].value); }
+        if (k > 0) { ASSERT_GE(points.at[k - 1].key, points.at[k].key); }
+      }
+      (depth == accel_detail::Depth::leaves ? leaves : subtrees) += points.count;
+    }
+  }
+  EXPECT_GT(subtrees, 2000u);
+  EXPECT_GT(leaves, 2000u);
+}
+
 /// One that is not finite, or turns back, does the others no harm.
 TEST_F(AccelPackets, WithRaysOfNonsense) {
   TestScene scene;
