@@ -28,8 +28,8 @@ inline std::size_t closest_lane(simd::LaneMask lanes, const std::array<float, kW
 }
 
 /// Of hits at the same t one has to be chosen, and in a way that does not depend on the order in which a ray
-/// comes to them: then the company that a ray travels in does not show in the image. This is
-/// asked where a hit is as far as the closest one so far, `found`, whose t is NaN where there is none.
+/// comes to them: then the company that a ray travels in does not show in the image. This is asked where a
+/// hit is as far as the closest one so far, `found`, whose t is NaN where there is none.
 inline bool precedes(const Hit& hit, const Hit& found) {
   return std::tie(hit.instance, hit.kind, hit.primitive) <
          std::tie(found.instance, found.kind, found.primitive);

@@ -68,7 +68,6 @@ TYPED_TEST(SimdFloat8, Comparisons) {
   EXPECT_EQ(equal(x, x), 0b11110111u);
 }
 
-/// For every set of lanes, with equal keys among them.
 TYPED_TEST(SimdFloat8, SelectsLanes) {
   using F = TypeParam;
   // Among them bits that are no number: they come through as they are.
@@ -84,6 +83,7 @@ TYPED_TEST(SimdFloat8, SelectsLanes) {
   }
 }
 
+/// For every set of lanes, with equal keys among them.
 TYPED_TEST(SimdFloat8, TakesTheFirstAndSorts) {
   using F = TypeParam;
   using Entry = simd::Keyed<std::uint32_t>;
