@@ -5,6 +5,7 @@
 #include "app/picture_output.h"
 #include "app/progress_bar.h"
 #include "core/error.h"
+#include "core/progress.h"
 #include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "render/compare.h"
@@ -20,6 +21,7 @@
 #include <cstdio>
 #include <omp.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace candela {
 
@@ -29,12 +31,20 @@ std::atomic<bool> stop_requested{false};
 volatile std::sig_atomic_t stop_signal = 0;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
+/// The second one does not wait for what is being saved.
 extern "C" void on_signal(int signal) {
+  if (stop_requested) _exit(128 + signal);
   stop_signal = signal;
   stop_requested = true;
 }
 
-/// SIGINT and SIGTERM end the render early for as long as this lives.
+int interrupted_status() {
+  return stop_signal == SIGTERM ? static_cast<int>(ExitCode::terminated)
+                                : static_cast<int>(ExitCode::interrupted);
+}
+
+/// SIGINT and SIGTERM end the render early for as long as this lives. (While a scene is read they end the
+/// process.)
 class SignalGuard {
 public:
   SignalGuard() : interrupt_(std::signal(SIGINT, on_signal)), terminate_(std::signal(SIGTERM, on_signal)) {}
@@ -155,9 +165,12 @@ int run_render(const RenderOptions& options) {
   offline.stop = &stop_requested;
   offline.progress = [&](const OfflineProgress& p) { bar.update(p.fraction, rate_text(p)); };
   OfflineResult result;
-  {
-    SignalGuard guard;
+  const SignalGuard guard;
+  try {
     result = render_document(loaded.document, offline);
+  } catch (const Cancelled&) {
+    fmt::print(stderr, "candela: interrupted while the scene was built; there is nothing to save\n");
+    return interrupted_status();
   }
   Image image = cropped(view_image(result.film, loaded.document.settings.view), offline.pass.crop);
   if (reference && (reference->width != image.width || reference->height != image.height))
@@ -196,11 +209,16 @@ int run_render(const RenderOptions& options) {
                "sample {} at depth {}\n",
                result.nonfinite.count, first.pixel.x, first.pixel.y, first.sample, first.depth);
   }
+  if (result.missing > 0)
+    fmt::print(
+        stderr,
+        "candela: warning: the render ended before every pixel had a sample: {:.1f} % of them have none "
+        "and repeat a neighbour where there is one\n",
+        100 * result.missing);
   if (reference) fmt::print("{}\n", reference_json(shown, denoised ? &image : nullptr, *reference));
   if (!result.interrupted) return 0;
   fmt::print(stderr, "candela: interrupted; what was rendered is saved\n");
-  return stop_signal == SIGTERM ? static_cast<int>(ExitCode::terminated)
-                                : static_cast<int>(ExitCode::interrupted);
+  return interrupted_status();
 }
 
 } // namespace candela

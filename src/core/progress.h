@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 
@@ -17,9 +18,16 @@ struct Cancelled : std::exception {
 /// Units of work are the worker's own (bytes, primitives). All members may be called from any thread.
 class Progress {
 public:
+  Progress() = default;
+  /// Is told to end by this flag, too, which must outlive it (a signal handler may set no more than a flag).
+  explicit Progress(const std::atomic<bool>& ends) : ends_(&ends) {}
+
   /// Tells the work to end; that is for good.
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
-  bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+  bool cancelled() const {
+    return cancelled_.load(std::memory_order_relaxed) ||
+           (ends_ != nullptr && ends_->load(std::memory_order_relaxed));
+  }
   /// Throws Cancelled if it is to end. Not for the inside of an OpenMP region, which no exception may leave.
   void check() const {
     if (cancelled()) throw Cancelled();
@@ -42,9 +50,15 @@ public:
 
 private:
   std::atomic<bool> cancelled_{false};
+  const std::atomic<bool>* ends_ = nullptr;
   std::atomic<std::uint64_t> expected_{0}, done_{0};
   mutable std::atomic<double> most_{0}; ///< that share() has told
 };
+
+/// Asks `progress`, which may be null, in a loop's i-th turn; seldom enough that short turns do not notice.
+inline void check_now_and_then(const Progress* progress, std::size_t i) {
+  if (progress != nullptr && i % 16384 == 0) progress->check();
+}
 
 /// A piece of some Progress's work, of one thread, that knows its own share. What is left when it ends counts
 /// as done.

@@ -86,10 +86,11 @@ void DirectLight::set_ray(ShadowRay& shadow) const {
 }
 
 /// Gives seekers the light that reaches them.
-void DirectLight::look(const RenderScene& scene, LightSeekers& seekers, RayCounts& counts) {
+void DirectLight::look(const RenderScene& scene, LightSeekers& seekers, RayCounts& counts, StopPoll& stop) {
   const std::span<const ShadowRay> shadows(shadows_.data(), shadow_count_);
   if (!seekers.neighbours || scene.has_transparency()) {
     for (const ShadowRay& shadow : shadows) {
+      if (stop.asked()) return;
       const float through = visibility(scene, shadow.ray, shadow.target, shadow.infinite, counts);
       if (through > 0) seekers.light[shadow.lane] += shadow.light * through;
     }
@@ -105,7 +106,7 @@ void DirectLight::look(const RenderScene& scene, LightSeekers& seekers, RayCount
 }
 
 void DirectLight::aim(const RenderScene& scene, const VertexLanes& vertices, LightSeekers& seekers,
-                      const PathSettings& settings, RayCounts& counts) {
+                      const PathSettings& settings, RayCounts& counts, StopPoll& stop) {
   for (std::size_t k = 0; k < seekers.count; ++k) seekers.light[seekers.lane[k]] = vec3(0);
   const bool all = settings.light_sampling != LightSampling::bsdf;
   const LightSelection& selection = all ? scene.all_lights() : scene.delta_lights();
@@ -116,18 +117,20 @@ void DirectLight::aim(const RenderScene& scene, const VertexLanes& vertices, Lig
     sample_lights({queries_.data(), queried_}, lights_);
     set_aims(vertices, lights_, aims_);
     weigh(vertices, seekers, settings);
-    look(scene, seekers, counts);
+    look(scene, seekers, counts, stop);
+    if (stop.asked()) return;
   }
 }
 
 vec3 DirectLightOfOne::aim(const RenderScene& scene, const Vertex& vertex, const Bsdf& bsdf,
-                           const Sampler& sampler, const PathSettings& settings, RayCounts& counts) {
+                           const Sampler& sampler, const PathSettings& settings, RayCounts& counts,
+                           StopPoll& stop) {
   vertices_.set_one(vertex, bsdf);
   seekers_.count = 1;
   seekers_.lane[0] = 0;
   seekers_.sampler[0] = &sampler;
   seekers_.scattered[0] = 0;
-  direct_light_.aim(scene, vertices_, seekers_, settings, counts);
+  direct_light_.aim(scene, vertices_, seekers_, settings, counts, stop);
   return seekers_.light[0];
 }
 

@@ -2,6 +2,7 @@
 // Next-event estimation: light that surface points get straight from a light that was aimed at.
 
 #include "bsdf/direction_sampling.h"
+#include "core/stop_condition.h"
 #include "render/light_lanes.h"
 #include "render/vertex_lanes.h"
 
@@ -23,9 +24,10 @@ class DirectLight {
 public:
   /// The estimate from all lights, by `settings.light_samples` shadow rays a vertex; each weighted against
   /// the `scattered` directions where the settings say mis. The lights that no direction meets by chance are
-  /// aimed at under every strategy, with weight 1. What one seeker gets does not depend on the others.
+  /// aimed at under every strategy, with weight 1. What one seeker gets does not depend on the others. Comes
+  /// back early, with less light, where it is asked to stop.
   void aim(const RenderScene& scene, const VertexLanes& vertices, LightSeekers& seekers,
-           const PathSettings& settings, RayCounts& counts);
+           const PathSettings& settings, RayCounts& counts, StopPoll& stop);
 
 private:
   /// What is aimed along, by the lane of the vertex.
@@ -51,7 +53,7 @@ private:
               const LightSeekers& seekers);
   void weigh(const VertexLanes& vertices, const LightSeekers& seekers, const PathSettings& settings);
   void set_ray(ShadowRay& shadow) const;
-  void look(const RenderScene& scene, LightSeekers& seekers, RayCounts& counts);
+  void look(const RenderScene& scene, LightSeekers& seekers, RayCounts& counts, StopPoll& stop);
   static void set_aims(const VertexLanes& vertices, const LightSampleLanes& lights, AimedLanes& aims);
 
   // Of one light sample for each seeker:
@@ -70,7 +72,7 @@ private:
 class DirectLightOfOne {
 public:
   vec3 aim(const RenderScene& scene, const Vertex& vertex, const Bsdf& bsdf, const Sampler& sampler,
-           const PathSettings& settings, RayCounts& counts);
+           const PathSettings& settings, RayCounts& counts, StopPoll& stop);
 
 private:
   VertexLanes vertices_;

@@ -69,21 +69,22 @@ vec2 inside_unit_square(vec2 p) { return glm::clamp(p, vec2(0), vec2(kOneMinusEp
 
 } // namespace
 
-EnvironmentMap::EnvironmentMap(std::shared_ptr<const Panorama> panorama, EnvironmentMapping mapping)
+EnvironmentMap::EnvironmentMap(std::shared_ptr<const Panorama> panorama, EnvironmentMapping mapping,
+                               const Progress* progress)
     : panorama_(std::move(panorama)), mapping_(mapping) {
   width_ = panorama_->image.width, height_ = panorama_->image.height;
   if (mapping_ == EnvironmentMapping::cross || mapping_ == EnvironmentMapping::faces) {
     faces_ = 6;
-    cut_faces();
+    cut_faces(progress);
     pad_faces();
   }
-  all_ = make_density(0);
-  bright_ = make_density(all_.total / (4 * kPi));
+  all_ = make_density(0, progress);
+  bright_ = make_density(all_.total / (4 * kPi), progress);
   if (!(bright_.total > kLeastBright * all_.total)) bright_ = {};
 }
 
 /// Takes the faces' texels out of a cross or a column of faces.
-void EnvironmentMap::cut_faces() {
+void EnvironmentMap::cut_faces(const Progress* progress) {
   const Image& from = panorama_->image;
   bool column = mapping_ == EnvironmentMapping::faces, upright = from.height > from.width;
   ivec2 squares = column ? ivec2(1, 6) : (upright ? ivec2(3, 4) : ivec2(4, 3));
@@ -96,12 +97,14 @@ void EnvironmentMap::cut_faces() {
     ivec2 square = column ? ivec2(0, face) : kInCross[face];
     bool turned = !column && upright && face == 4;
     if (turned) square = {1, 3};
-    for (int y = 0; y < height_; ++y)
+    for (int y = 0; y < height_; ++y) {
+      if (progress != nullptr) progress->check();
       for (int x = 0; x < width_; ++x) {
         ivec2 at = turned ? ivec2(width_ - 1 - x, height_ - 1 - y) : ivec2(x, y);
         ivec2 source = glm::min(square * ivec2(width_, height_) + at, ivec2(from.width - 1, from.height - 1));
         padded_faces_.at(x + 1, face * (height_ + 2) + y + 1) = from.at(source.x, source.y);
       }
+    }
   }
 }
 
@@ -312,7 +315,7 @@ float EnvironmentMap::factor(const Density& by, int x, int y) const {
   return by.total > 0 ? static_cast<float>(texel_solid_angle(x, y)) * by.per_luminance : 0;
 }
 
-EnvironmentMap::Density EnvironmentMap::make_density(float dark) const {
+EnvironmentMap::Density EnvironmentMap::make_density(float dark, const Progress* progress) const {
   Density made;
   made.dark = dark;
   std::vector<float> weights;
@@ -324,6 +327,7 @@ EnvironmentMap::Density EnvironmentMap::make_density(float dark) const {
   const bool same_in_row = mapping_ == EnvironmentMapping::latlong; // and two sines a texel take longest
   for (int face = 0; face < faces_; ++face)
     for (int y = 0; y < height_; ++y) {
+      if (progress != nullptr) progress->check();
       double solid_angle = texel_solid_angle(0, y);
       for (int x = 0; x < width_; ++x) {
         if (!same_in_row) solid_angle = texel_solid_angle(x, y);
@@ -337,7 +341,7 @@ EnvironmentMap::Density EnvironmentMap::make_density(float dark) const {
       }
     }
   made.total = static_cast<float>(total);
-  made.texels = WeightedGrid(weights, static_cast<std::size_t>(width_));
+  made.texels = WeightedGrid(weights, static_cast<std::size_t>(width_), progress);
   if (!(total > 0)) return made;
   made.per_luminance = static_cast<float>(static_cast<double>(weights.size()) / total);
   if (mapping_ == EnvironmentMapping::latlong)

@@ -33,7 +33,9 @@ enum class EnvironmentAim {
 
 class EnvironmentMap {
 public:
-  EnvironmentMap(std::shared_ptr<const Panorama> panorama, EnvironmentMapping mapping);
+  /// Throws Cancelled soon after `progress` is told to end; it may be null.
+  EnvironmentMap(std::shared_ptr<const Panorama> panorama, EnvironmentMapping mapping,
+                 const Progress* progress = nullptr);
 
   const std::shared_ptr<const Panorama>& panorama() const { return panorama_; }
   EnvironmentMapping mapping() const { return mapping_; }
@@ -102,7 +104,7 @@ private:
     return aim == EnvironmentAim::bright && bright_.total > 0 ? bright_ : all_;
   }
 
-  void cut_faces();
+  void cut_faces(const Progress* progress);
   void pad_faces();
   int column(int x) const;
   const vec3* row(int face, int y) const;
@@ -112,7 +114,7 @@ private:
   vec3 lookup(int face, vec2 q) const;
   double texel_solid_angle(int x, int y) const;
   float factor(const Density& density, int x, int y) const;
-  Density make_density(float dark) const;
+  Density make_density(float dark, const Progress* progress) const;
 
   std::shared_ptr<const Panorama> panorama_;
   EnvironmentMapping mapping_;

@@ -115,7 +115,8 @@ bool render_features(const RenderScene& scene, const Document& document, std::ui
       continue;
     }
     Sampler sampler = PixelRays::sampler(document.settings.sampler);
-    for (int x = 0; x < film.width_; ++x) {
+    for (int x = 0; x < film.width_ && !stopped; ++x) {
+      stopped = stop.load(std::memory_order_relaxed);
       FeatureFilm::Pixel& p =
           film.pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width_) +
                        static_cast<std::size_t>(x)];

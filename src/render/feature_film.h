@@ -34,7 +34,7 @@ private:
 
 /// Adds samples until the film, which has the document's size, has `spp` a pixel: of the (pixel, sample)
 /// camera rays that render_pass() traces, through mirrors and smooth glass the way that the image's paths go.
-/// The same for any number of threads. Polls `stop` between rows: false, and a film of no use, where it was
+/// The same for any number of threads. Polls `stop` between pixels: false, and a film of no use, where it was
 /// set.
 bool render_features(const RenderScene& scene, const Document& document, std::uint32_t spp, FeatureFilm& film,
                      const std::atomic<bool>& stop, int threads = 0);

@@ -32,6 +32,8 @@ public:
   }
   void add_nonfinite(int x, int y) { ++pixel(x, y).nonfinite; }
 
+  /// Samples that were added, finite or not: the index of the next one.
+  std::uint32_t tried(int x, int y) const { return pixel(x, y).count + pixel(x, y).nonfinite; }
   int count(int x, int y) const { return static_cast<int>(pixel(x, y).count); }
   vec3 mean(int x, int y) const; ///< 0 where there is no sample
   /// Of the mean, unbiased, per channel; 0 below two samples.

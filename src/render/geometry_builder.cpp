@@ -80,6 +80,7 @@ public:
   }
 
   std::shared_ptr<const Geometry> build(Progress* progress) {
+    progress_ = progress;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
       if (progress) progress->check();
       add(static_cast<std::uint32_t>(i));
@@ -198,12 +199,16 @@ private:
     TriangleSet& world = g_->world_;
     begin_triangles(index);
     auto base = static_cast<std::uint32_t>(world.positions.size());
-    for (vec3 p : mesh.positions) world.positions.push_back(transform_point(m, p));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      check_now_and_then(progress_, i);
+      world.positions.push_back(transform_point(m, mesh.positions[i]));
+    }
     if (!mesh.normals.empty()) {
       world_normals_ = true;
       world.normals.resize(base, vec3(0));
-      for (vec3 n : mesh.normals) {
-        vec3 w = normal_to_world * n;
+      for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+        check_now_and_then(progress_, i);
+        vec3 w = normal_to_world * mesh.normals[i];
         world.normals.push_back(length_squared(w) > 0 ? glm::normalize(w) : vec3(0));
       }
     }
@@ -213,6 +218,7 @@ private:
       world.uvs.insert(world.uvs.end(), mesh.uvs.begin(), mesh.uvs.end());
     }
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      check_now_and_then(progress_, i);
       uvec3 t = mesh.triangles[i] + base;
       if (mirrored) std::swap(t.y, t.z);
       world.triangles.push_back(t);
@@ -294,6 +300,7 @@ private:
   std::map<const Mesh*, std::shared_ptr<const Geometry::Object>> known_objects_;
   std::vector<std::shared_ptr<Geometry::Object>> new_objects_; ///< whose trees are still to be built
   bool world_normals_ = false, world_uvs_ = false;
+  const Progress* progress_ = nullptr; ///< of build()
 };
 
 std::shared_ptr<const Geometry> Geometry::build(const std::vector<Instance>& instances, BuildQuality quality,

@@ -13,9 +13,10 @@ namespace candela {
 class LightSelection {
 public:
   LightSelection() = default;
-  /// Among those of `lights` that `members` indexes, in a scene of the given radius.
+  /// Among those of `lights` that `members` indexes, in a scene of the given radius. Throws Cancelled soon
+  /// after `progress` is told to end; it may be null.
   LightSelection(std::span<const Light> lights, std::span<const std::uint32_t> members, LightChoiceBy how,
-                 float scene_radius);
+                 float scene_radius, const Progress* progress = nullptr);
 
   /// Nothing that shines.
   bool empty() const { return by_power_ ? powers_.empty() : tree_.empty(); }

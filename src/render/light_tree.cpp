@@ -64,11 +64,13 @@ int bin_of(float value, float lo, float hi) {
 
 } // namespace
 
-LightTree::LightTree(std::span<const Light> lights, std::span<const std::uint32_t> members)
+LightTree::LightTree(std::span<const Light> lights, std::span<const std::uint32_t> members,
+                     const Progress* progress)
     : places_(lights.size()) {
   std::vector<BinaryNode> leaves;
   double greatest = 0;
   for (std::uint32_t i : members) {
+    check_now_and_then(progress, i);
     double strength = 0;
     if (auto bounds = light_bounds(lights[i])) {
       strength = bounds->intensity;
@@ -92,17 +94,19 @@ LightTree::LightTree(std::span<const Light> lights, std::span<const std::uint32_
   if (leaves.empty()) {
     nodes_.emplace_back();
   } else {
-    std::uint32_t root = build(leaves, nodes);
+    std::uint32_t root = build(leaves, nodes, progress);
     flatten(nodes, root, {});
   }
 }
 
 /// Cuts where the halves' spreads have the least sum, weighted against thin boxes (section 4.4).
-std::uint32_t LightTree::build(std::span<BinaryNode> leaves, std::vector<BinaryNode>& nodes) {
+std::uint32_t LightTree::build(std::span<BinaryNode> leaves, std::vector<BinaryNode>& nodes,
+                               const Progress* progress) {
   if (leaves.size() == 1) {
     nodes.push_back(leaves[0]);
     return static_cast<std::uint32_t>(nodes.size() - 1);
   }
+  if (progress != nullptr) progress->check();
   Bounds3 centers;
   for (const BinaryNode& leaf : leaves) centers.grow(leaf.bounds.center);
   Cut best;
@@ -138,7 +142,8 @@ std::uint32_t LightTree::build(std::span<BinaryNode> leaves, std::vector<BinaryN
     });
     half = static_cast<std::size_t>(middle - leaves.begin());
   }
-  std::uint32_t left = build(leaves.first(half), nodes), right = build(leaves.subspan(half), nodes);
+  std::uint32_t left = build(leaves.first(half), nodes, progress),
+                right = build(leaves.subspan(half), nodes, progress);
   nodes.push_back({merge(nodes[left].bounds, nodes[right].bounds), kNone, left, right});
   return static_cast<std::uint32_t>(nodes.size() - 1);
 }

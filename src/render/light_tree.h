@@ -1,6 +1,7 @@
 #pragma once
 // Choosing a light by what it may contribute to a point.
 
+#include "core/progress.h"
 #include "render/light_bounds.h"
 
 #include <array>
@@ -30,7 +31,9 @@ public:
 
   LightTree() = default;
   /// Over those of `lights` that `members` indexes. Throws std::invalid_argument where too many are apart.
-  LightTree(std::span<const Light> lights, std::span<const std::uint32_t> members);
+  /// Throws Cancelled soon after `progress` is told to end; it may be null.
+  LightTree(std::span<const Light> lights, std::span<const std::uint32_t> members,
+            const Progress* progress = nullptr);
 
   /// No light that shines.
   bool empty() const { return count_ == 0; }
@@ -81,7 +84,8 @@ private:
     std::array<float, kWidth + kMostApart> each, sum;
   };
 
-  static std::uint32_t build(std::span<BinaryNode> leaves, std::vector<BinaryNode>& nodes);
+  static std::uint32_t build(std::span<BinaryNode> leaves, std::vector<BinaryNode>& nodes,
+                             const Progress* progress);
   std::uint32_t flatten(const std::vector<BinaryNode>& nodes, std::uint32_t root, Place parent);
   std::optional<LightChoice> descend(const LightReference& ref, float u) const;
   float ascend(const LightReference& ref, std::uint32_t light) const;

@@ -2,10 +2,21 @@
 
 namespace candela {
 
+float survival_bound(int depth) {
+  // Measured by relMSE x samples: the white room, all of whose surfaces are lossless, gets 0.6 % noisier by
+  // it and the inside of a lossless box with one small opening twice as noisy (0.95 instead of 0.99: 17
+  // times), at 14 % fewer rays; a camera in a ball of glass, whose paths would never end, traces 160 rays a
+  // sample.
+  constexpr int kFreeDepth = 64;
+  return depth < kFreeDepth ? 1 : 0.99f;
+}
+
 Roulette Roulette::at(const PathSettings& settings, int depth) {
-  if (settings.rr == RussianRoulette::off || depth < settings.rr_depth) return {};
-  if (settings.rr == RussianRoulette::fixed) return {settings.rr_probability, kInfinity};
-  return {0, settings.rr_threshold};
+  if (settings.rr == RussianRoulette::off) return {};
+  const float most = survival_bound(depth);
+  if (depth < settings.rr_depth) return {1, kInfinity, most};
+  if (settings.rr == RussianRoulette::fixed) return {settings.rr_probability, kInfinity, most};
+  return {0, settings.rr_threshold, most};
 }
 
 namespace {
@@ -22,6 +33,7 @@ namespace {
     float largest = max_component(carried);
     float worth = largest * out.unscaled[i] / roulette.threshold;
     float q = worth < 1 ? std::max(worth, roulette.least) : 1.0f; // NaN goes on, to be seen
+    q = std::min(q, roulette.most);
     // Nothing, or less than a normal float: rounding would keep denormals alive for ever where reflectance is
     // above 1/2.
     q = largest < std::numeric_limits<float>::min() ? 0.0f : q;

@@ -11,10 +11,15 @@ namespace candela {
 struct Roulette {
   float least = 1;             ///< q at least
   float threshold = kInfinity; ///< the throughput that is worth 1
+  float most = 1;              ///< q at most, before `least` is asked: see survival_bound()
 
   /// For paths of `depth` segments.
   static Roulette at(const PathSettings& settings, int depth);
 };
+
+/// The highest chance with which a path of `depth` segments may go on, whatever it carries and whatever the
+/// settings say: in rooms and glass that lose no light the throughput stays 1, and nothing else ends a path.
+float survival_bound(int depth);
 
 /// A direction from each lane of VertexLanes, at most.
 struct OnwardLanes {

@@ -14,7 +14,10 @@ bool shows_depth(const PathSettings& settings, int depth) {
 }
 
 int longest_path(const PathSettings& settings) {
-  int last = settings.max_depth < 0 ? std::numeric_limits<int>::max() : settings.max_depth;
+  int last = settings.max_depth;
+  if (last < 0)
+    last =
+        settings.rr == RussianRoulette::off ? kMostSegmentsWithoutRoulette : std::numeric_limits<int>::max();
   if (settings.only_depth > 0) last = std::min(last, settings.only_depth);
   if (settings.component == PathComponent::emitted) last = std::min(last, 1);
   if (settings.component == PathComponent::direct) last = std::min(last, 2);
@@ -28,7 +31,8 @@ PathTracer::PathTracer(const RenderScene& scene, const PathSettings& settings)
 
 /// With segments numbered by depth = 1, 2, ... the estimate is the sum over vertices of
 ///   throughput x (emission met by chance, weighted + light aimed at, weighted).
-void PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> results, RayCounts& counts) {
+bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> results, RayCounts& counts,
+                       StopPoll& stop) {
   results_ = results;
   counts_ = {};
   paths_.clear();
@@ -39,18 +43,23 @@ void PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
     path.split = starts[i].sampler.sample() == 0;
   }
   for (int depth = 1; depth <= last_depth_ && !paths_.empty(); ++depth) {
-    intersect(depth);
+    intersect(depth, stop);
     meet_emitters(depth);
     next_.clear();
     if (depth < last_depth_)
       for (std::size_t begin = 0; begin < arrived_.size(); begin += kLaneCount)
-        stop_at(begin, std::min(kLaneCount, arrived_.size() - begin), depth);
+        stop_at(begin, std::min(kLaneCount, arrived_.size() - begin), depth, stop);
+    if (stop.asked()) return false;
     std::swap(paths_, next_);
   }
   counts += counts_;
+  return true;
 }
 
-void PathTracer::intersect(int depth) {
+/// Rays between two looks at whether to stop: single ones may take milliseconds.
+constexpr std::size_t kRaysAtATime = 16;
+
+void PathTracer::intersect(int depth, StopPoll& stop) {
   arrived_.clear();
   missed_.clear();
   hits_.resize(paths_.size());
@@ -63,6 +72,7 @@ void PathTracer::intersect(int depth) {
     counts_.closest += rays_.size();
   }
   for (std::size_t i = 0; i < paths_.size(); ++i) {
+    if (i % kRaysAtATime == 0 && stop.asked()) return;
     Path& path = paths_[i];
     path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
     Hit& hit = hits_[arrived_.size()]; // at i or before
@@ -95,7 +105,8 @@ void PathTracer::meet_emitters(int depth) {
 }
 
 /// Stops the paths that arrived at hits_[begin ...] there: aims at lights, and sends on those that go on.
-void PathTracer::stop_at(std::size_t begin, std::size_t count, int depth) {
+void PathTracer::stop_at(std::size_t begin, std::size_t count, int depth, StopPoll& stop) {
+  if (stop.asked()) return;
   Lanes<const Ray*> rays;
   for (std::size_t i = 0; i < count; ++i) rays[i] = &arrived_[begin + i]->ray;
   vertices_.meet(scene_, {rays.data(), count}, std::span(hits_).subspan(begin, count));
@@ -119,7 +130,7 @@ void PathTracer::stop_at(std::size_t begin, std::size_t count, int depth) {
     seekers_.scattered[i] = branches;
   }
   if (shows_depth(settings_, depth + 1)) {
-    direct_light_.aim(scene_, vertices_, seekers_, settings_, counts_);
+    direct_light_.aim(scene_, vertices_, seekers_, settings_, counts_, stop);
     for (std::uint32_t i : std::span(seekers_.lane.data(), seekers_.count)) {
       const Path& path = *arrived_[begin + i];
       results_[path.result].add_aimed(path.throughput * seekers_.light[i], depth + 1);

@@ -1,6 +1,7 @@
 #pragma once
 // The path tracer: radiance along camera rays by random walks from the eye.
 
+#include "core/stop_condition.h"
 #include "render/direct_light.h"
 #include "render/onward.h"
 #include "render/path_sample.h"
@@ -13,6 +14,8 @@ namespace candela {
 
 /// Whether the settings show light of paths of `depth` segments.
 bool shows_depth(const PathSettings& settings, int depth);
+/// Where Russian roulette is off and path.max_depth sets no limit, paths end after so many segments.
+inline constexpr int kMostSegmentsWithoutRoulette = 1024;
 /// The longest path that can matter under the settings, in segments.
 int longest_path(const PathSettings& settings);
 
@@ -38,8 +41,10 @@ class PathTracer {
 public:
   PathTracer(const RenderScene& scene, const PathSettings& settings);
 
-  /// One sample of the radiance that arrives along each start's ray. `results` has as many.
-  void trace(std::span<const PathStart> starts, std::span<PathSample> results, RayCounts& counts);
+  /// One sample of the radiance that arrives along each start's ray. `results` has as many. False, and
+  /// results of no use, where it was asked to stop, which it polls every few rays.
+  bool trace(std::span<const PathStart> starts, std::span<PathSample> results, RayCounts& counts,
+             StopPoll& stop);
 
 private:
   /// A walk on its way: what the next vertex needs to know of those before.
@@ -68,9 +73,9 @@ private:
     int branches; ///< directions to try
   };
 
-  void intersect(int depth);
+  void intersect(int depth, StopPoll& stop);
   void meet_emitters(int depth);
-  void stop_at(std::size_t begin, std::size_t count, int depth);
+  void stop_at(std::size_t begin, std::size_t count, int depth, StopPoll& stop);
   void prepare_aiming(std::size_t lane);
   bool leave(std::uint32_t branch, int depth);
 

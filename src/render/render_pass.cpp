@@ -42,28 +42,20 @@ struct SampleIndex {
 /// Evaluates samples, many at a time; one per thread.
 class PixelSampler {
 public:
-  PixelSampler(const RenderScene& scene, const Document& document)
-      : scene_(scene), settings_(document.settings), view_(accumulated_view(settings_.view)), rays_(document),
-        sampler_(PixelRays::sampler(settings_.sampler)), paths_(scene, path_settings(settings_)) {}
+  PixelSampler(const RenderScene& scene, const Document& document, const StopCondition& stop)
+      : stop_(stop), scene_(scene), settings_(document.settings), view_(accumulated_view(settings_.view)),
+        rays_(document), sampler_(PixelRays::sampler(settings_.sampler)),
+        paths_(scene, path_settings(settings_)) {}
 
-  /// results[i] becomes what sample indices[i] adds to its pixel.
-  void sample(std::span<const SampleIndex> indices, std::span<PixelSample> results, RayCounts& counts) {
-    start(indices);
-    counts.samples += indices.size();
-    if (!shows_light()) {
-      view_first_hits(results, counts);
-    } else if (follows_paths()) {
-      parts_.resize(indices.size());
-      paths_.trace(starts_, parts_, counts);
-      for (std::size_t i = 0; i < indices.size(); ++i) show(parts_[i], results[i]);
-    } else {
-      for (std::size_t i = 0; i < indices.size(); ++i) alone(starts_[i], results[i], counts);
-    }
-    for (std::size_t i = 0; i < indices.size(); ++i) { // as the pixel's filter weighs them
-      if (weights_[i] == 1) continue;                  // always, for most filters
-      results[i].value *= weights_[i];
-      results[i].parts *= weights_[i];
-    }
+  /// results[i] becomes what sample indices[i] adds to its pixel. False, and results of no use, where it was
+  /// asked to stop.
+  bool sample(std::span<const SampleIndex> indices, std::span<PixelSample> results, RayCounts& counts) {
+    RayCounts made;
+    evaluate(indices, results, made);
+    if (stop_.asked()) return false;
+    made.samples = indices.size();
+    counts += made;
+    return true;
   }
 
   PixelSample sample(const SampleIndex& index) {
@@ -74,6 +66,25 @@ public:
   }
 
 private:
+  void evaluate(std::span<const SampleIndex> indices, std::span<PixelSample> results, RayCounts& counts) {
+    start(indices);
+    if (!shows_light()) {
+      view_first_hits(results, counts);
+    } else if (follows_paths()) {
+      parts_.resize(indices.size());
+      if (!paths_.trace(starts_, parts_, counts, stop_)) return;
+      for (std::size_t i = 0; i < indices.size(); ++i) show(parts_[i], results[i]);
+    } else {
+      for (std::size_t i = 0; i < indices.size() && !stop_.asked(); ++i)
+        alone(starts_[i], results[i], counts);
+    }
+    for (std::size_t i = 0; i < indices.size(); ++i) { // as the pixel's filter weighs them
+      if (weights_[i] == 1) continue;                  // always, for most filters
+      results[i].value *= weights_[i];
+      results[i].parts *= weights_[i];
+    }
+  }
+
   static PathSettings path_settings(const RenderSettings& settings) {
     PathSettings path = settings.path;
     if (settings.integrator == Integrator::direct)
@@ -107,7 +118,7 @@ private:
 
   void view_first_hits(std::span<PixelSample> results, RayCounts& counts) {
     if (view_ == View::bvh_cost) {
-      for (std::size_t i = 0; i < starts_.size(); ++i)
+      for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
         results[i] = {bvh_cost_value(scene_, starts_[i].ray, counts), {}};
       return;
     }
@@ -116,7 +127,7 @@ private:
     hits_.resize(starts_.size());
     scene_.geometry().accel().intersect(camera_rays_, hits_);
     counts.closest += starts_.size();
-    for (std::size_t i = 0; i < starts_.size(); ++i)
+    for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
       results[i] = {first_hit_value(scene_, starts_[i].ray, hits_[i].t < kInfinity, hits_[i],
                                     rays_.camera().forward(), view_, starts_[i].sampler, counts),
                     {}};
@@ -125,7 +136,8 @@ private:
   /// Of an integrator that takes one sample after the other.
   void alone(PathStart& start, PixelSample& result, RayCounts& counts) {
     if (settings_.integrator == Integrator::whitted)
-      show(whitted_radiance(scene_, start.ray, start.sampler, settings_.path, direct_light_, counts), result);
+      show(whitted_radiance(scene_, start.ray, start.sampler, settings_.path, direct_light_, counts, stop_),
+           result);
     else
       show(ambient_occlusion_sample(scene_, start.ray, start.sampler, settings_, counts), result);
   }
@@ -147,6 +159,7 @@ private:
     }
   }
 
+  StopPoll stop_;
   const RenderScene& scene_;
   const RenderSettings& settings_;
   View view_;
@@ -164,15 +177,27 @@ private:
   std::vector<Hit> hits_;
 };
 
-/// The path segment at which a sample stops being finite: the shortest path that is not (found by tracing
-/// again).
+/// The path segment at which a sample stops being finite: that of the shortest path that is not, found by
+/// tracing again. Once a sum is not finite it stays so, whatever is added: so the depth is doubled and then
+/// halved in between. 0 where there is none.
 int nonfinite_depth(const RenderScene& scene, const Document& document, const SampleIndex& index) {
   Document limited = document;
-  for (int depth = 1; depth < 1000; ++depth) {
+  auto is_finite_up_to = [&](int depth) {
     limited.settings.path.max_depth = depth;
-    if (!is_finite(PixelSampler(scene, limited).sample(index).value)) return depth;
+    return is_finite(PixelSampler(scene, limited, {}).sample(index).value);
+  };
+  int finite = 0, last = 1;
+  constexpr int kMost = 1 << 20;
+  while (is_finite_up_to(last)) {
+    if (last >= kMost) return 0;
+    finite = last;
+    last *= 2;
   }
-  return 0;
+  while (last - finite > 1) {
+    const int middle = finite + (last - finite) / 2;
+    (is_finite_up_to(middle) ? finite : last) = middle;
+  }
+  return last;
 }
 
 struct Window {
@@ -206,17 +231,23 @@ public:
     samples_.resize(kSize);
   }
 
+  /// Unless the pixel has this sample.
   void push(const SampleIndex& index, PassResult& result) {
+    const int x = static_cast<int>(index.pixel.x), y = static_cast<int>(index.pixel.y);
+    if (job_.film.tried(x, y) > index.sample) return;
     indices_.push_back(index);
     if (indices_.size() == kSize) flush(result);
   }
 
   void flush(PassResult& result) {
     if (indices_.empty()) return;
-    sampler_.sample(indices_, {samples_.data(), indices_.size()}, result.rays);
-    for (std::size_t i = 0; i < indices_.size(); ++i) add(indices_[i], samples_[i], result);
+    stopped_ = stopped_ || !sampler_.sample(indices_, {samples_.data(), indices_.size()}, result.rays);
+    for (std::size_t i = 0; i < indices_.size() && !stopped_; ++i) add(indices_[i], samples_[i], result);
     indices_.clear();
   }
+
+  /// What is pushed is not sampled any more.
+  bool stopped() const { return stopped_; }
 
 private:
   void add(const SampleIndex& index, const PixelSample& s, PassResult& result) {
@@ -239,6 +270,7 @@ private:
   const PassJob& job_;
   std::vector<SampleIndex> indices_;
   std::vector<PixelSample> samples_;
+  bool stopped_ = false;
 };
 
 void sample_window(SampleQueue& queue, const Window& window, std::uint32_t begin, std::uint32_t end,
@@ -248,7 +280,7 @@ void sample_window(SampleQueue& queue, const Window& window, std::uint32_t begin
   for (int y = up(window.y0); y < window.y1; y += step)
     for (int x = up(window.x0); x < window.x1; x += step) {
       if (skip > 0 && x % skip == 0 && y % skip == 0) continue;
-      for (std::uint32_t i = begin; i < end; ++i) queue.push({uvec2(x, y), i}, result);
+      for (std::uint32_t i = begin; i < end && !queue.stopped(); ++i) queue.push({uvec2(x, y), i}, result);
     }
   queue.flush(result);
 }
@@ -272,8 +304,11 @@ bool sample_adaptively(SampleQueue& queue, const Window& block, const PassJob& j
   for (std::uint32_t i = job.range.begin; i < job.range.end;) {
     std::uint32_t check = (i / every + 1) * every, end = std::min(check, job.range.end);
     sample_window(queue, block, i, end, job, result);
+    if (queue.stopped()) return false;
     i = end;
-    if (i == check && block_converged(job.film, block, adaptive.error)) {
+    // Where the block has more, an earlier pass that ended early has asked.
+    const bool asks = i == check && job.film.tried(block.x0, block.y0) == check;
+    if (asks && block_converged(job.film, block, adaptive.error)) {
       for (int y = block.y0; y < block.y1; ++y)
         for (int x = block.x0; x < block.x1; ++x) job.film.stop(x, y);
       return true;
@@ -299,7 +334,7 @@ void render_tile(SampleQueue& queue, const Window& tile, const PassJob& job, Pas
 } // namespace
 
 PassResult render_pass(const RenderScene& scene, const Document& document, const SampleRange& range,
-                       Film& film, const std::atomic<bool>& stop, const PassOptions& options) {
+                       Film& film, const StopCondition& stop, const PassOptions& options) {
   Window window = clip(options.crop, film);
   // The grid of tiles is the film's, whatever window of it is rendered.
   int first_column = window.x0 / kTileSize, first_row = window.y0 / kTileSize;
@@ -312,11 +347,11 @@ PassResult render_pass(const RenderScene& scene, const Document& document, const
   bool stopped = false;
 #pragma omp parallel num_threads(threads) reduction(|| : stopped)
   {
-    PixelSampler sampler(scene, document);
+    PixelSampler sampler(scene, document, stop);
     SampleQueue queue(sampler, job);
 #pragma omp for schedule(dynamic, 1)
     for (int t = 0; t < tiles; ++t) {
-      if (stop.load(std::memory_order_relaxed)) {
+      if (queue.stopped() || stop.asked()) {
         stopped = true;
         continue;
       }
@@ -324,6 +359,7 @@ PassResult render_pass(const RenderScene& scene, const Document& document, const
       Window tile{std::max(x, window.x0), std::max(y, window.y0), std::min(x + kTileSize, window.x1),
                   std::min(y + kTileSize, window.y1)};
       render_tile(queue, tile, job, results[static_cast<std::size_t>(t)]);
+      stopped = stopped || queue.stopped();
     }
   }
   PassResult total;
@@ -340,7 +376,7 @@ PassResult render_pass(const RenderScene& scene, const Document& document, const
 }
 
 vec3 replay_sample(const RenderScene& scene, const Document& document, uvec2 pixel, std::uint32_t sample) {
-  return PixelSampler(scene, document).sample({pixel, sample}).value;
+  return PixelSampler(scene, document, {}).sample({pixel, sample}).value;
 }
 
 float display_scale(const RenderScene& scene, const RenderSettings& settings) {

@@ -1,11 +1,11 @@
 #pragma once
 // One pass over the film: the unit of work of the session and of the command line.
 
+#include "core/stop_condition.h"
 #include "render/film.h"
 #include "render/render_scene.h"
 
 #include <array>
-#include <atomic>
 
 namespace candela {
 
@@ -39,12 +39,14 @@ struct PassResult {
   NonFiniteLog nonfinite;
 };
 
-/// Adds the range's samples to the film. The samples do not depend on threads, tiles or earlier passes. Polls
-/// `stop` between tiles and ends early where it is set; the film then holds whole samples, of some
-/// pixels more than of others. Samples that are not finite are logged, not added. With adaptive.error set,
-/// blocks of pixels whose error is small enough get no more samples.
+/// Adds those of the range's samples to the film that its pixels do not have: a pixel gets its samples in
+/// their order, so the first of them that it lacks is the number that it has. The samples do not depend on
+/// threads, tiles or earlier passes. Polls `stop` every few rays and ends early where it is asked to; the
+/// film then holds whole samples, of some pixels more than of others, and the same pass again brings the
+/// rest. Samples that are not finite are logged, not added. With adaptive.error set, blocks of pixels whose
+/// error is small enough get no more samples.
 PassResult render_pass(const RenderScene& scene, const Document& document, const SampleRange& range,
-                       Film& film, const std::atomic<bool>& stop, const PassOptions& options = {});
+                       Film& film, const StopCondition& stop, const PassOptions& options = {});
 
 /// One sample again, alone, bit for bit as the pass traced it.
 vec3 replay_sample(const RenderScene& scene, const Document& document, uvec2 pixel, std::uint32_t sample);

@@ -43,20 +43,20 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document, 
   const bool same = previous != nullptr && previous->instances_ == instances;
   return build(document,
                same ? previous->geometry_ : Geometry::build(instances, BuildQuality::high, progress),
-               previous);
+               previous, progress);
 }
 
 std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
                                                       std::shared_ptr<const Geometry> geometry,
-                                                      const RenderScene* previous) {
+                                                      const RenderScene* previous, Progress* progress) {
   auto scene = std::make_shared<RenderScene>();
   const SceneDesc& desc = document.scene;
   scene->geometry_ = std::move(geometry);
   scene->instances_ = desc.instances;
   scene->textures_ = desc.textures;
   scene->add_materials(document);
-  scene->add_emitters();
-  scene->add_lights(desc.lights, previous);
+  scene->add_emitters(progress);
+  scene->add_lights(desc.lights, previous, progress);
 
   Bounds3 bounds = scene->geometry_->finite_bounds();
   float radius = bounds.empty() ? 1.0f : std::max(0.5f * glm::length(bounds.diagonal()), 1e-6f);
@@ -66,8 +66,8 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
     if (is_delta_light(scene->lights_[i])) delta.push_back(i);
   }
   LightChoiceBy how = document.settings.path.light_choice;
-  scene->all_lights_ = LightSelection(scene->lights_, all, how, radius);
-  scene->delta_lights_ = LightSelection(scene->lights_, delta, how, radius);
+  scene->all_lights_ = LightSelection(scene->lights_, all, how, radius, progress);
+  scene->delta_lights_ = LightSelection(scene->lights_, delta, how, radius, progress);
   return scene;
 }
 
@@ -94,7 +94,7 @@ void RenderScene::add_materials(const Document& document) {
   }
 }
 
-void RenderScene::add_emitters() {
+void RenderScene::add_emitters(const Progress* progress) {
   // A path that meets a partly transparent light by chance sees it with the chance of its opacity; aiming at
   // it must expect the same.
   auto aimed = [](const SurfaceMaterial& m) { return m.emission * m.opacity; };
@@ -128,6 +128,7 @@ void RenderScene::add_emitters() {
   }
   const TriangleSet& world = g.world();
   for (std::uint32_t i = 0; i < world.triangles.size(); ++i) {
+    check_now_and_then(progress, i);
     const SurfaceMaterial& m = materials_[world.materials[i]];
     if (!m.emissive || light_of_emitter_[i] != kNoLight) continue;
     uvec3 t = world.triangles[i];
@@ -147,6 +148,7 @@ void RenderScene::add_emitters() {
     if (std::ranges::none_of(p.slot_materials, shines)) continue;
     const TriangleSet& set = g.objects()[p.object]->set;
     for (std::uint32_t i = 0; i < set.triangles.size(); ++i) {
+      check_now_and_then(progress, i);
       const SurfaceMaterial& m = materials_[p.slot_materials[set.materials[i]]];
       if (!m.emissive) continue;
       uvec3 t = set.triangles[i];
@@ -159,7 +161,8 @@ void RenderScene::add_emitters() {
   }
 }
 
-const EnvironmentMap* RenderScene::environment_map(const LightDesc& light, const RenderScene* previous) {
+const EnvironmentMap* RenderScene::environment_map(const LightDesc& light, const RenderScene* previous,
+                                                   const Progress* progress) {
   auto fits = [&](const auto& map) {
     return map->panorama() == light.panorama && map->mapping() == light.mapping;
   };
@@ -170,12 +173,13 @@ const EnvironmentMap* RenderScene::environment_map(const LightDesc& light, const
     auto known = std::ranges::find_if(previous->environment_maps_, fits);
     if (known != previous->environment_maps_.end()) map = *known;
   }
-  if (!map) map = std::make_shared<const EnvironmentMap>(light.panorama, light.mapping);
+  if (!map) map = std::make_shared<const EnvironmentMap>(light.panorama, light.mapping, progress);
   environment_maps_.push_back(map);
   return map.get();
 }
 
-void RenderScene::add_lights(const std::vector<LightDesc>& lights, const RenderScene* previous) {
+void RenderScene::add_lights(const std::vector<LightDesc>& lights, const RenderScene* previous,
+                             const Progress* progress) {
   for (const LightDesc& l : lights) {
     vec3 color = l.color * l.scale;
     if (is_black(color)) continue;
@@ -194,7 +198,8 @@ void RenderScene::add_lights(const std::vector<LightDesc>& lights, const RenderS
     case LightType::constant: lights_.emplace_back(ConstantLight{color}); break;
     case LightType::environment:
       if (l.panorama)
-        lights_.emplace_back(EnvironmentLight{environment_map(l, previous), world_from_panorama(l), color});
+        lights_.emplace_back(
+            EnvironmentLight{environment_map(l, previous, progress), world_from_panorama(l), color});
       else
         lights_.emplace_back(ConstantLight{color});
       break;

@@ -28,8 +28,9 @@ public:
   static std::shared_ptr<const RenderScene>
   build(const Document& document, const RenderScene* previous = nullptr, Progress* progress = nullptr);
   /// The same with geometry that was made of the document's instances.
-  static std::shared_ptr<const RenderScene>
-  build(const Document& document, std::shared_ptr<const Geometry> geometry, const RenderScene* previous);
+  static std::shared_ptr<const RenderScene> build(const Document& document,
+                                                  std::shared_ptr<const Geometry> geometry,
+                                                  const RenderScene* previous, Progress* progress = nullptr);
 
   const std::vector<Instance>& instances() const { return instances_; }
   const std::shared_ptr<const Geometry>& shared_geometry() const { return geometry_; }
@@ -63,9 +64,11 @@ private:
   bool has_transparency_ = false;
 
   void add_materials(const Document& document);
-  void add_emitters();
-  void add_lights(const std::vector<LightDesc>& lights, const RenderScene* previous);
-  const EnvironmentMap* environment_map(const LightDesc& light, const RenderScene* previous);
+  void add_emitters(const Progress* progress);
+  void add_lights(const std::vector<LightDesc>& lights, const RenderScene* previous,
+                  const Progress* progress);
+  const EnvironmentMap* environment_map(const LightDesc& light, const RenderScene* previous,
+                                        const Progress* progress);
 };
 
 /// The material's BSDF, without its texture.

@@ -1,6 +1,7 @@
 #include "render/whitted_integrator.h"
 
 #include "bsdf/delta_lobes.h"
+#include "render/onward.h"
 #include "render/path_integrator.h"
 
 namespace candela {
@@ -24,8 +25,8 @@ struct SpecularRay {
 class WhittedTracer {
 public:
   WhittedTracer(const RenderScene& scene, Sampler& sampler, const PathSettings& settings,
-                DirectLightOfOne& direct_light, RayCounts& counts)
-      : scene_(scene), sampler_(sampler), settings_(settings), counts_(counts),
+                DirectLightOfOne& direct_light, RayCounts& counts, StopPoll& stop)
+      : scene_(scene), sampler_(sampler), settings_(settings), counts_(counts), stop_(stop),
         last_depth_(longest_path(settings)), direct_light_(direct_light) {
     // No direction is tried by chance but the specular ones: aiming is alone, with full weight.
     settings_.light_sampling = LightSampling::nee;
@@ -41,7 +42,7 @@ public:
 private:
   // Recursion is as deep as kBranchingDepth; behind that the loop goes on alone.
   void follow(SpecularRay path, int depth) {
-    for (; depth <= last_depth_; ++depth) {
+    for (; depth <= last_depth_ && !stop_.asked(); ++depth) {
       stand_at(path, depth);
       Hit hit;
       if (!intersect_scene(scene_, path.ray, sampler_, hit, counts_)) {
@@ -59,7 +60,7 @@ private:
       if (depth == last_depth_ || !vertex.scatters()) return;
       Bsdf bsdf = material.diffuse_texture != nullptr ? evaluate_bsdf(material, surface) : material.bsdf;
       if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1) {
-        vec3 light = direct_light_.aim(scene_, vertex, bsdf, sampler_, settings_, counts_);
+        vec3 light = direct_light_.aim(scene_, vertex, bsdf, sampler_, settings_, counts_, stop_);
         sample_.add_aimed(path.throughput * light, depth + 1);
       }
       if (!leave(path, vertex, bsdf, depth)) return;
@@ -96,9 +97,10 @@ private:
     path.eta2 *= sqr(lobe.eta);
     float largest = max_component(path.throughput);
     if (largest < std::numeric_limits<float>::min()) return false;
-    // Between two mirrors a path would never end: roulette by what is left of it.
+    // Between two mirrors a path would never end: roulette by what is left of it, and a little even where
+    // nothing is lost.
     if (depth > kBranchingDepth) {
-      float q = std::min(1.0f, largest * path.eta2);
+      float q = std::min(survival_bound(depth), largest * path.eta2);
       if (sampler_.get_1d(Dimension::russian_roulette) >= q) return false;
       path.throughput /= q;
     }
@@ -121,6 +123,7 @@ private:
   Sampler& sampler_;
   PathSettings settings_;
   RayCounts& counts_;
+  StopPoll& stop_;
   int last_depth_;
   PathSample sample_;
   DirectLightOfOne& direct_light_;
@@ -129,8 +132,9 @@ private:
 } // namespace
 
 PathSample whitted_radiance(const RenderScene& scene, const Ray& ray, Sampler& sampler,
-                            const PathSettings& settings, DirectLightOfOne& direct_light, RayCounts& counts) {
-  return WhittedTracer(scene, sampler, settings, direct_light, counts).trace(ray);
+                            const PathSettings& settings, DirectLightOfOne& direct_light, RayCounts& counts,
+                            StopPoll& stop) {
+  return WhittedTracer(scene, sampler, settings, direct_light, counts, stop).trace(ray);
 }
 
 } // namespace candela

@@ -10,8 +10,10 @@ namespace candela {
 /// specular, both branches of glass followed (Whitted, "An Improved Illumination Model for Shaded Display",
 /// CACM 23(6), 1980). Diffuse surfaces do not light each other: with the path integrator's picture beside it,
 /// one sees what is missing. Lights are aimed at (several times where path.light_samples says so); depths
-/// mean the same as in the path integrator. `direct_light` is memory, of the thread.
+/// mean the same as in the path integrator. `direct_light` is memory, of the thread. Less than it should be,
+/// and quick, where it is asked to stop.
 PathSample whitted_radiance(const RenderScene& scene, const Ray& ray, Sampler& sampler,
-                            const PathSettings& settings, DirectLightOfOne& direct_light, RayCounts& counts);
+                            const PathSettings& settings, DirectLightOfOne& direct_light, RayCounts& counts,
+                            StopPoll& stop);
 
 } // namespace candela

@@ -33,11 +33,12 @@ GuidedTable::GuidedTable(std::span<const float> weights) {
   }
 }
 
-WeightedGrid::WeightedGrid(std::span<const float> weights, std::size_t columns) {
+WeightedGrid::WeightedGrid(std::span<const float> weights, std::size_t columns, const Progress* progress) {
   if (columns == 0 || weights.empty() || weights.size() % columns != 0)
     throw std::invalid_argument("a grid needs whole rows of weights");
   std::vector<float> sums;
   for (std::size_t begin = 0; begin < weights.size(); begin += columns) {
+    if (progress != nullptr) progress->check();
     auto row = weights.subspan(begin, columns);
     columns_.emplace_back(row);
     double sum = 0;

@@ -2,6 +2,7 @@
 // Drawing cells of a large grid in proportion to their weights.
 
 #include "core/math.h"
+#include "core/progress.h"
 
 #include <span>
 #include <vector>
@@ -48,7 +49,7 @@ public:
 
   WeightedGrid() = default;
   /// Weights row by row, as of GuidedTable.
-  WeightedGrid(std::span<const float> weights, std::size_t columns);
+  WeightedGrid(std::span<const float> weights, std::size_t columns, const Progress* progress = nullptr);
 
   Sample sample(vec2 u) const {
     GuidedTable::Sample row = rows_.sample(u.y);

@@ -15,6 +15,35 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Side of the coarsest blocks of a first pass that may run out of time; a power of two.
+constexpr int kCoarsest = 32;
+
+/// Pixels of the window without samples get the value of one that stands for a block around them, where there
+/// is one. Returns their share.
+double fill_missing(OfflineResult& result, CropWindow window) {
+  Film& film = result.film;
+  if (window.width <= 0 || window.height <= 0) window = {0, 0, film.width(), film.height()};
+  // Beforehand, for what is filled in stands for nothing.
+  std::vector<std::pair<ivec2, std::optional<ivec2>>> holes;
+  for (int y = window.y; y < window.y + window.height; ++y)
+    for (int x = window.x; x < window.x + window.width; ++x) {
+      if (film.tried(x, y) > 0) continue;
+      auto& hole = holes.emplace_back(ivec2(x, y), std::nullopt);
+      for (int side = 2; side <= kCoarsest && !hole.second; side *= 2) {
+        const ivec2 other(x - x % side, y - y % side);
+        if (other.x >= window.x && other.y >= window.y && film.count(other.x, other.y) > 0)
+          hole.second = other;
+      }
+    }
+  for (const auto& [hole, other] : holes) {
+    if (!other) continue;
+    film.add(hole.x, hole.y, film.mean(other->x, other->y));
+    for (Film& part : result.components)
+      if (part.width() > 0) part.add(hole.x, hole.y, part.mean(other->x, other->y));
+  }
+  return static_cast<double>(holes.size()) / (static_cast<double>(window.width) * window.height);
+}
+
 } // namespace
 
 OfflineResult render_document(const Document& document, const OfflineOptions& options) {
@@ -22,8 +51,11 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
   if (until.spp <= 0 && until.time <= 0 && until.noise <= 0 && document.settings.adaptive.error <= 0)
     throw usage_error("stop", "there is nothing to stop at",
                       "give stop.spp (--spp), stop.time (--time) or stop.noise (--noise)");
+  static const std::atomic<bool> kNeverStop{false};
+  const std::atomic<bool>& stop = options.stop ? *options.stop : kNeverStop;
   auto start = Clock::now();
-  auto scene = RenderScene::build(document);
+  Progress building(stop);
+  auto scene = RenderScene::build(document, nullptr, &building);
   OfflineResult result;
   result.build_seconds = seconds_since(start);
   result.scene = scene;
@@ -38,9 +70,22 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
       pass_options.components[i] = &result.components[i];
     }
 
-  static const std::atomic<bool> kNeverStop{false};
-  const std::atomic<bool>& stop = options.stop ? *options.stop : kNeverStop;
   start = Clock::now();
+  StopCondition ends(stop);
+  if (until.time > 0)
+    ends.at(start + std::chrono::duration_cast<Clock::duration>(
+                        std::chrono::duration<double>(std::min(static_cast<double>(until.time), 1e9))));
+  auto render = [&](const SampleRange& range) {
+    PassResult pass = render_pass(*scene, document, range, result.film, ends, pass_options);
+    result.rays += pass.rays;
+    result.nonfinite.count += pass.nonfinite.count;
+    for (const NonFiniteSample& s : pass.nonfinite.records)
+      if (result.nonfinite.records.size() < NonFiniteLog::kMaxRecords) result.nonfinite.records.push_back(s);
+    return pass;
+  };
+  if (until.time > 0)
+    for (int lattice = kCoarsest; lattice > 1; lattice /= 2)
+      render({0, 1, lattice, lattice == kCoarsest ? 0 : 2 * lattice});
   int target = until.spp > 0 ? until.spp : std::numeric_limits<int>::max();
   int portion = 1; // grows while a portion is too short to be worth its synchronisation
   while (result.spp < target) {
@@ -49,14 +94,10 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
     SampleRange range{static_cast<std::uint32_t>(result.spp),
                       static_cast<std::uint32_t>(result.spp + portion)};
     auto portion_start = Clock::now();
-    PassResult pass = render_pass(*scene, document, range, result.film, stop, pass_options);
-    result.rays += pass.rays;
-    result.nonfinite.count += pass.nonfinite.count;
-    for (const NonFiniteSample& s : pass.nonfinite.records)
-      if (result.nonfinite.records.size() < NonFiniteLog::kMaxRecords) result.nonfinite.records.push_back(s);
+    PassResult pass = render(range);
     result.render_seconds = seconds_since(start);
     if (!pass.completed) {
-      result.interrupted = true;
+      result.interrupted = stop;
       break;
     }
     result.spp += portion;
@@ -78,6 +119,7 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
     else if (taken > 0.5 && portion > 1)
       portion /= 2;
   }
+  if (result.spp == 0) result.missing = fill_missing(result, options.pass.crop);
   result.noise = std::sqrt(estimated_relmse(result.film));
   return result;
 }
@@ -89,12 +131,13 @@ ViewPicture render_view(const Document& document, const OfflineResult& rendered,
   Document other = document;
   other.settings.view = view;
   other.settings.stop = {};
-  other.settings.stop.spp = rendered.spp;
+  // Of an interrupted render, too, every picture is whole, but whoever interrupted it does not wait long.
+  other.settings.stop.spp = rendered.interrupted ? 1 : std::max(rendered.spp, 1);
   other.settings.adaptive = {};
   OfflineOptions quiet = options;
   quiet.components = false;
   quiet.progress = nullptr;
-  quiet.stop = nullptr; // of an interrupted render, too, every picture is whole: first hits are quick
+  quiet.stop = nullptr;
   OfflineResult result = render_document(other, quiet);
   return {view_image(result.film, view), result.display_scale};
 }

@@ -17,8 +17,9 @@ struct OfflineProgress {
 
 struct OfflineOptions {
   PassOptions pass;
-  bool components = false;                 ///< keep the emitted, direct and indirect parts apart, too
-  const std::atomic<bool>* stop = nullptr; ///< ends early, between tiles; the film keeps what it has
+  bool components = false; ///< keep the emitted, direct and indirect parts apart, too
+  /// Ends early: Cancelled is thrown while the scene is built, after that the film keeps what it has.
+  const std::atomic<bool>* stop = nullptr;
   std::function<void(const OfflineProgress&)> progress; ///< called after each portion
 };
 
@@ -36,11 +37,15 @@ struct OfflineResult {
   bool converged = false; ///< adaptive sampling stopped everywhere
   std::size_t scene_bytes = 0;
   bool interrupted = false; ///< by `stop`
+  /// Share of the pixels to be rendered that got no sample, for the render ended within the first pass: where
+  /// a pixel of a coarser grid has been rendered, the film holds its value instead.
+  double missing = 0;
 };
 
-/// Renders until the document's stop.spp, stop.time or stop.noise, whichever comes first (one sample a pixel
-/// at least), or until adaptive sampling has stopped everywhere. Throws a usage error where the document has
-/// none of them.
+/// Renders until the document's stop.spp, stop.time or stop.noise, whichever comes first, or until adaptive
+/// sampling has stopped everywhere. The time is obeyed within passes, too, so the last one may bring some
+/// pixels a sample more than others; the first pass goes from a coarse grid of pixels to finer ones, so that
+/// there is a whole picture early. Throws a usage error where the document has none of them.
 OfflineResult render_document(const Document& document, const OfflineOptions& options = {});
 
 struct ViewPicture {

@@ -8,6 +8,7 @@
 #include <omp.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <utility>
 
 namespace candela {
 
@@ -49,7 +50,7 @@ void RenderSession::State::render_loop() {
         active = false;
         continue;
       }
-      if (!finished() && goes_on()) step();
+      if (!finished() && begin_pass()) step();
       const bool other_view = spp > 0 && published_view != current.settings.view; // of the same samples
       active = !finished();
       const bool settled = !active || !goes_on();
@@ -122,6 +123,28 @@ bool RenderSession::State::goes_on() const {
   return may_go_on();
 }
 
+/// Whether there still is to be a pass; from now on, whoever wants it to wait must say so again.
+bool RenderSession::State::begin_pass() {
+  std::lock_guard lock(mutex);
+  if (!may_go_on()) return false;
+  hold = false;
+  return true;
+}
+
+/// When the pass that begins now is to end early. `may_wait`: it may be held and go on later; those of many
+/// samples are short, and left in their middle they would put pixels far ahead of others.
+StopCondition RenderSession::State::stop_condition(bool waited_for, bool may_wait) const {
+  StopCondition condition(quitting);
+  if (waited_for) return condition.when(stop, Clock::now() + kFirstPicturePatience);
+  condition.when(stop);
+  if (may_wait) condition.when(hold);
+  const auto limit = static_cast<double>(current.settings.stop.time);
+  if (limit > 0 && spp > 0)
+    condition.at(Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                    std::chrono::duration<double>(std::min(limit - render_seconds, 1e9))));
+  return condition;
+}
+
 /// Whether this pass is one that step() asked for.
 bool RenderSession::State::take_step() {
   std::lock_guard lock(mutex);
@@ -152,7 +175,8 @@ constexpr double kHandRests = 0.3;
 std::size_t first_level(double pixels, double seconds_per_sample) {
   if (seconds_per_sample <= 0) return kUsualLevel;
   // Finer pictures are worth some waiting, coarser ones only the saving of a lot.
-  constexpr std::pair<std::size_t, double> kWorth[] = {{3, 6e-3}, {2, 12e-3}, {1, 30e-3}};
+  constexpr std::pair<std::size_t, double> kWorth[] = {
+      {5, 6e-3}, {4, 12e-3}, {3, 30e-3}, {2, 60e-3}, {1, 80e-3}};
   for (auto [level, seconds] : kWorth)
     if (pixels / (kCoarseLevels[level] * kCoarseLevels[level]) * seconds_per_sample <= seconds) return level;
   return 0;
@@ -170,7 +194,15 @@ void RenderSession::State::restart() {
   const std::shared_ptr<const RenderScene> previous = scene ? scene : options.geometry_of;
   const std::vector<Instance>& instances = current.scene.instances;
   std::shared_ptr<const Geometry> geometry = geometry_for(instances, previous.get());
-  auto made = RenderScene::build(current, geometry, previous.get());
+  std::shared_ptr<Progress> progress;
+  {
+    std::lock_guard lock(mutex);
+    progress = building;
+  }
+  if (previous == nullptr || geometry != previous->shared_geometry())
+    unused = Improvement{instances, geometry};
+  auto made = RenderScene::build(current, geometry, previous.get(), progress.get());
+  unused.reset();
   const bool is_new = scene == nullptr || scene->shared_geometry() != geometry;
   {
     std::lock_guard lock(mutex);
@@ -201,7 +233,7 @@ void RenderSession::State::begin_accumulation(std::size_t first_level) {
   level = begun_level = first_level;
   spp = 0;
   schedule.reset(film.width(), film.height(), 1); // the first pass is everywhere
-  converged = false;
+  converged = pass_held = false;
   noise = std::numeric_limits<double>::infinity();
   published_samples = 0;
   denoised_samples = 0;
@@ -212,7 +244,7 @@ bool RenderSession::State::finished() const {
   const StopSettings& until = current.settings.stop;
   if (spp == 0) return false;
   return converged || (until.noise > 0 && noise <= static_cast<double>(until.noise)) ||
-         (until.spp > 0 && spp >= until.spp) ||
+         (until.spp > 0 && spp >= until.spp && !pass_held) ||
          (until.time > 0 && render_seconds >= static_cast<double>(until.time));
 }
 
@@ -251,7 +283,6 @@ void RenderSession::State::render_portion(int most_samples) {
 }
 
 void RenderSession::State::render_pass_of(int most_samples) {
-  static const std::atomic<bool> kNeverStop{false};
   PassOptions pass_options;
   pass_options.threads = options.threads;
   SampleRange range;
@@ -279,8 +310,9 @@ void RenderSession::State::render_pass_of(int most_samples) {
     pass_options.crop = job.window;
   }
   auto start = Clock::now();
-  // The coarsest image is always finished: while an edit is dragged there is a picture of every moment.
-  PassResult pass = render_pass(*scene, current, range, film, waited_for ? kNeverStop : stop, pass_options);
+  const bool continued = std::exchange(pass_held, false);
+  PassResult pass = render_pass(*scene, current, range, film,
+                                stop_condition(waited_for, range.end - range.begin == 1), pass_options);
   double taken = seconds_between(start, Clock::now());
   render_seconds += taken;
   rays += pass.rays;
@@ -289,14 +321,16 @@ void RenderSession::State::render_pass_of(int most_samples) {
     if (nonfinite.records.size() < NonFiniteLog::kMaxRecords) nonfinite.records.push_back(s);
   if (pass.rays.samples > 0 && (waited_for || usual_seconds == 0))
     usual_seconds = taken / static_cast<double>(pass.rays.samples);
+  pass_held = !pass.completed;
   if (!pass.completed) return;
   if (coarse) {
     ++level;
     if (level == std::size(kCoarseLevels)) spp = 1, first_pass_seconds = render_seconds;
     if (waited_for || !stop) publish(true); // a newer edit waits
   } else {
-    seconds_per_sample =
-        taken / (static_cast<double>(job.end - job.begin) * job.window.width * job.window.height);
+    if (!continued) // or it was a part of a pass
+      seconds_per_sample =
+          taken / (static_cast<double>(job.end - job.begin) * job.window.width * job.window.height);
     schedule.done(job);
     spp = static_cast<int>(schedule.samples());
     converged = pass.converged && current.settings.adaptive.error > 0;

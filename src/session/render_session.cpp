@@ -31,8 +31,7 @@ std::uint64_t RenderSession::submit(Document document) {
     turns = s.options.turns;
     Invalidates consequence =
         s.status.submitted == 0 ? Invalidates::scene : compare_documents(s.newest, document);
-    const auto &before = s.newest.scene.instances, &now = document.scene.instances;
-    if (s.building && before != now && meshes_of(before) != meshes_of(now)) s.building->cancel();
+    if (s.building && is_built_anew(s.newest.scene, document.scene)) s.building->cancel();
     s.newest = document;
     s.pending = std::move(document);
     s.pending_worst = std::max(s.pending_worst, consequence);
@@ -67,6 +66,7 @@ void RenderSession::pause(bool paused) {
     std::lock_guard lock(s.mutex);
     s.paused = paused;
     s.steps_wanted = 0;
+    if (paused) s.hold = true;
   }
   s.changed.notify_all();
 }
@@ -86,7 +86,7 @@ void RenderSession::set_region(const CropWindow& region) {
   {
     std::lock_guard lock(s.mutex);
     s.region = region;
-    s.region_changed = true;
+    s.region_changed = s.hold = true;
   }
   s.changed.notify_all();
 }

@@ -74,15 +74,16 @@ public:
 
   /// Hands in a new Document (latest wins) and returns its generation. What it restarts is decided by
   /// compare_documents(): a display-only change re-tones the newest frame and keeps accumulating. A Document
-  /// with other meshes cancels the building of the one before. Where meshes are only moved, copied or
-  /// deleted, geometry is built fast, which takes milliseconds, and well beside the rendering; when that is
-  /// done the accumulation begins anew, without a coarse picture, and only what comes of it is ever called
-  /// finished.
+  /// with other meshes or panoramas cancels the building of the one before. Where meshes are only moved,
+  /// copied or deleted, geometry is built fast, which takes milliseconds, and well beside the rendering; when
+  /// that is done the accumulation begins anew, without a coarse picture, and only what comes of it is ever
+  /// called finished.
   std::uint64_t submit(Document document);
   /// Objects may be moved soon: makes ready for it.
   void expect_moves();
 
-  /// While paused nothing accumulates; edits still show their first pass. The pass in flight is finished.
+  /// While paused nothing accumulates; edits still show their first pass. The pass in flight goes on
+  /// afterwards where it is left.
   void pause(bool paused);
   /// One sample for every pixel that accumulates, then a pause.
   void step();

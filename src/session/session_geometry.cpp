@@ -15,6 +15,16 @@ std::set<const Mesh*> meshes_of(const std::vector<Instance>& instances) {
   return meshes;
 }
 
+bool is_built_anew(const SceneDesc& before, const SceneDesc& now) {
+  auto panoramas = [](const SceneDesc& scene) {
+    std::set<const Panorama*> all;
+    for (const LightDesc& light : scene.lights) all.insert(light.panorama.get());
+    return all;
+  };
+  return (before.instances != now.instances && meshes_of(before.instances) != meshes_of(now.instances)) ||
+         (before.lights != now.lights && panoramas(before) != panoramas(now));
+}
+
 /// What there is of `previous` or of the geometry thread, or else built now: fast, if no mesh is new.
 std::shared_ptr<const Geometry> RenderSession::State::geometry_for(const std::vector<Instance>& instances,
                                                                    const RenderScene* previous) {
@@ -28,6 +38,7 @@ std::shared_ptr<const Geometry> RenderSession::State::geometry_for(const std::ve
     progress = building;
   }
   if (previous != nullptr && previous->instances() == instances) return previous->shared_geometry();
+  if (unused && unused->instances == instances) return unused->geometry;
   const bool moved =
       previous != nullptr && std::ranges::includes(meshes_of(previous->instances()), meshes_of(instances));
   if (options.on_build) options.on_build(*progress);

@@ -28,14 +28,19 @@ inline double seconds_between(Clock::time_point a, Clock::time_point b) {
 inline constexpr int kRenderNiceness = 10, kBuildNiceness = 15;
 
 /// Side of the blocks of the first pass; each is a multiple of the next, so the lattices nest.
-inline constexpr int kCoarseLevels[] = {32, 16, 8, 4, 2, 1};
-inline constexpr std::size_t kUsualLevel = 2; ///< to begin with while no sample has been timed
+inline constexpr int kCoarseLevels[] = {128, 64, 32, 16, 8, 4, 2, 1};
+inline constexpr std::size_t kUsualLevel = 4; ///< to begin with while no sample has been timed
+/// The first picture after an edit is finished although a newer edit waits, so that there are pictures while
+/// one drags; but only so long.
+inline constexpr std::chrono::milliseconds kFirstPicturePatience{100};
 
 /// The level that the first pass of a film begins with, so that a picture of it is there soon.
 std::size_t first_level(double pixels, double seconds_per_sample);
 
 /// What instances are made of, shapes apart.
 std::set<const Mesh*> meshes_of(const std::vector<Instance>& instances);
+/// Whether building `before` would be in vain for who wants `now`: it has other meshes or panoramas.
+bool is_built_anew(const SceneDesc& before, const SceneDesc& now);
 
 // Five threads: `renderer` turns Documents into Frames, the first of each by way of `urgent`,
 // `geometry_thread` builds well what that had to build fast, `denoiser` turns snapshots of the film into
@@ -64,6 +69,7 @@ struct RenderSession::State {
   std::atomic<bool> stop{false}; ///< the pass in flight is out of date
   std::atomic<double> publish_interval{options.min_publish_interval};
   std::atomic<bool> quitting{false}; ///< `quit`, for who does not hold the mutex
+  std::atomic<bool> hold{false};     ///< the pass in flight is to wait: it goes on later where it is left
 
   // The mailbox.
   std::optional<Document> pending;
@@ -85,6 +91,8 @@ struct RenderSession::State {
     std::shared_ptr<const Geometry> geometry; ///< null: there is no memory for it
   };
   std::optional<Improvement> improvement; ///< made by the geometry thread, not in use yet
+  std::optional<Improvement>
+      unused; ///< built for a scene of which the rest was given up; the render thread's
 
   // Whose CPU time is told.
   std::vector<clockid_t> team_clocks; ///< of the threads that render and the OpenMP teams that they keep
@@ -117,6 +125,7 @@ struct RenderSession::State {
   std::uint64_t samples_to_show = 0; ///< pictures of fewer would be worse than the one that is shown
   bool stays_fast = false;           ///< memory does not suffice for more
   bool converged = false;            ///< adaptive sampling has stopped everywhere
+  bool pass_held = false;            ///< the last pass ended early and is to go on
   double noise = std::numeric_limits<double>::infinity(); ///< when stop.noise was asked last
   std::uint64_t published_samples = 0; ///< camera paths in the last snapshot: spp may come to the same twice
   View published_view = View::radiance;
@@ -158,6 +167,8 @@ struct RenderSession::State {
   bool may_go_on() const { return !paused || steps_wanted > 0 || spp == 0; }
   bool goes_on() const;
   bool take_step();
+  bool begin_pass();
+  StopCondition stop_condition(bool waited_for, bool may_wait) const;
   void step();
   void render_portion(int most_samples);
   void render_pass_of(int most_samples);

@@ -1,10 +1,13 @@
 // The headless render: when it stops, and that portions do not show in the result.
 
 #include "core/error.h"
+#include "core/progress.h"
 #include "session/offline_render.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
+
+#include <thread>
 
 namespace candela {
 namespace {
@@ -24,6 +27,55 @@ TEST(OfflineRender, StopsAtTheTime) {
   OfflineResult r = render_document(d);
   EXPECT_GE(r.spp, 1);
   EXPECT_GE(r.render_seconds, 0.05);
+}
+
+/// Each sample takes its time: a camera in glass that no ray leaves, and paths as long as may be.
+Document slow_document(int size) {
+  test::SceneMaker s(size, size, 0);
+  Material glass;
+  glass.type = MaterialType::dielectric;
+  glass.ior = 2.5f;
+  const int material = s.material(glass);
+  s.document.scene.instances.push_back({"", CubeShape{}, mat4(1), {material}});
+  s.camera({0, 0, 0}, {0.3f, 0.2f, 1}, 60);
+  s.document.settings.path.rr = RussianRoulette::off;
+  s.document.settings.path.max_depth = 100000;
+  return s.document;
+}
+
+TEST(OfflineRender, StopsAtTheTimeWithinTheFirstPassWithAWholePicture) {
+  Document d = test::cornell_flush(2048, 2048, 0, true).document;
+  d.settings.path.light_samples = 64;
+  d.settings.stop.time = 0.3f;
+  const OfflineResult r = render_document(d);
+  EXPECT_FALSE(r.interrupted);
+  EXPECT_EQ(r.spp, 0);
+  EXPECT_GT(r.missing, 0.1);
+  int empty = 0;
+  for (int y = 0; y < 2048; ++y)
+    for (int x = 0; x < 2048; ++x) empty += r.film.count(x, y) != 1;
+  EXPECT_LT(empty, 2048 * 2048 / 2) << "the coarse grid of pixels comes first";
+}
+
+TEST(OfflineRender, IsInterruptedWithinABatchOfPaths) {
+  const Document d = slow_document(64);
+  Document limited = d;
+  limited.settings.stop.spp = 1000000;
+  std::atomic<bool> stop{false};
+  OfflineOptions options;
+  options.stop = &stop;
+  std::jthread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    stop = true;
+  });
+  EXPECT_TRUE(render_document(limited, options).interrupted);
+}
+
+TEST(OfflineRender, IsInterruptedWhileTheSceneIsBuilt) {
+  const std::atomic<bool> stop{true};
+  OfflineOptions options;
+  options.stop = &stop;
+  EXPECT_THROW(render_document(test::cornell_flush(8, 8, 1, true).document, options), Cancelled);
 }
 
 TEST(OfflineRender, RefusesToRunForEver) {

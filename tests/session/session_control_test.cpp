@@ -99,5 +99,60 @@ TEST(SessionControl, ARegionBeforeTheFirstDocumentWaitsForIt) {
   EXPECT_EQ(session.latest()->spp, 2);
 }
 
+/// Samples that take long, whatever the film's size: the inside of glass that no ray leaves, without
+/// roulette.
+Document slow_document() {
+  test::SceneMaker s(96, 96, 1);
+  Material glass;
+  glass.type = MaterialType::dielectric;
+  glass.ior = 2.5f;
+  const int material = s.material(glass);
+  s.document.scene.instances.push_back({"", CubeShape{}, mat4(1), {material}});
+  s.camera({0, 0, 0}, {0.3f, 0.2f, 1}, 60);
+  s.document.settings.path.rr = RussianRoulette::off;
+  s.document.settings.path.max_depth = 1000000;
+  return s.document;
+}
+
+// Where a pass is not interrupted, each of these takes many minutes: the tests' time limit is what fails
+// then.
+
+TEST(SessionControl, AnEditIsTakenInTheMiddleOfAPass) {
+  RenderSession session;
+  session.submit(slow_document());
+  while (session.status().phase != SessionPhase::rendering) std::this_thread::yield();
+  const Document d = small_cornell(4);
+  ASSERT_TRUE(shows(session, d));
+  EXPECT_TRUE(session.latest()->linear == headless(d));
+}
+
+TEST(SessionControl, ClosingDoesNotWaitForAPass) {
+  for (int i = 0; i < 3; ++i) {
+    RenderSession session;
+    session.submit(slow_document());
+    while (session.status().phase != SessionPhase::rendering) std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(30 * i));
+  }
+}
+
+TEST(SessionControl, APassThatIsHeldGoesOnWhereItWasLeft) {
+  Document d = small_cornell(6, 203, 151);
+  d.settings.path.light_samples = 16; // a sample a pass
+  RenderSession session;
+  session.submit(d);
+  for (int i = 0; i < 12; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    session.pause(true);
+    if (i % 3 == 0) session.set_region({20, 30, 90, 70});
+    if (i % 3 == 2) session.set_region({});
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    session.pause(false);
+  }
+  session.set_region({});
+  ASSERT_TRUE(session.wait_finished(kPatience));
+  EXPECT_EQ(session.latest()->spp, 6);
+  EXPECT_TRUE(session.latest()->linear == headless(d));
+}
+
 } // namespace
 } // namespace candela
