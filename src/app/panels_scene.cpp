@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace candela {
 
@@ -75,7 +76,9 @@ void materials_panel(Ui& ui, ViewerState& state) {
     if (!material_uses(material.type, row.key)) continue;
     FieldContext context;
     context.initial = initial_of(row, state.home.scene.materials, index);
+    const MaterialType type = material.type;
     state.edited |= ui.field(fmt::format("material.{}", row.key), row, row.address(material), context);
+    if (material.type != type) change_type(material, std::exchange(material.type, type));
   }
   ImGui::PopID();
   if (material.diffuse_texture >= 0 &&

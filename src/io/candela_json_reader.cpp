@@ -153,6 +153,9 @@ private:
     auto known = keys_of(material_fields(), {"name", "diffuse_texture"});
     each_object(array, "materials", [&](JsonValue object, const std::string& element) {
       Material material;
+      for (auto [key, value] : object.members()) // first of all, for the others' defaults depend on it
+        if (key.string() == "type") read_row(material_fields(), material, key, value, element);
+      material = default_material(material.type);
       for (auto [key, value] : object.members()) {
         std::string name = fmt::format("{}.{}", element, key.string());
         if (key.string() == "name")

@@ -54,9 +54,8 @@ private:
   /// The rows of an owner that differ from those of a default one, as JSON members.
   template <class Owner>
   static std::vector<std::string> changed_rows(std::span<const Field<Owner>> rows, const Owner& owner,
-                                               std::string_view prefix = "") {
+                                               std::string_view prefix = "", const Owner& standard = {}) {
     std::vector<std::string> out;
-    const Owner standard;
     for (const auto& row : rows) {
       if (!row.key.starts_with(prefix)) continue;
       const void* value = row.address(const_cast<Owner&>(owner));
@@ -121,7 +120,10 @@ private:
     for (const Material& material : scene_.materials) {
       std::vector<std::string> members;
       if (!material.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(material.name)));
-      for (std::string& row : changed_rows(material_fields(), material)) members.push_back(std::move(row));
+      Material standard = default_material(material.type);
+      standard.type = {}; // which is written, too
+      for (std::string& row : changed_rows(material_fields(), material, "", standard))
+        members.push_back(std::move(row));
       if (material.diffuse_texture >= 0)
         members.push_back(
             fmt::format("\"diffuse_texture\": {}", texture_reference(material.diffuse_texture)));

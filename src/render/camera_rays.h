@@ -29,6 +29,7 @@ public:
 
   bool has_lens() const { return aperture_radius_ > 0; }
   bool orthographic() const { return orthographic_; }
+  vec3 position() const { return origin_; }
   vec3 forward() const { return forward_; }
   float focus_distance() const { return focus_distance_; }
 

@@ -58,9 +58,8 @@ void DirectLight::weigh(const VertexLanes& vertices, const LightSeekers& seekers
   const auto n = static_cast<float>(settings.light_samples);
   for (const LightQuery& query : std::span(queries_.data(), queried_)) {
     const std::uint32_t i = query.lane;
-    if (!(lights_.pdf[i] > 0) || !(aims_.cosine[i] > 0)) continue;
-    BsdfEval e = direction_eval_pdf(vertices.bsdf(i), vertices.wo_local[i], aims_.wi_local[i],
-                                    settings.direction_sampling);
+    if (!(lights_.pdf[i] > 0) || !query.reference->accepts(aims_.cosine[i])) continue;
+    BsdfEval e = vertices.eval_pdf(i, aims_.wi_local[i], settings.direction_sampling);
     vec3 contribution = e.f_cos * lights_.radiance[i];
     if (is_black(contribution)) continue;
     float pdf = pmf_[i] * lights_.pdf[i];
@@ -88,11 +87,12 @@ void DirectLight::set_ray(ShadowRay& shadow) const {
 /// Gives seekers the light that reaches them.
 void DirectLight::look(const RenderScene& scene, LightSeekers& seekers, RayCounts& counts, StopPoll& stop) {
   const std::span<const ShadowRay> shadows(shadows_.data(), shadow_count_);
-  if (!seekers.neighbours || scene.has_transparency()) {
+  if (!seekers.neighbours || scene.has_transparency() || scene.has_absorption()) {
     for (const ShadowRay& shadow : shadows) {
       if (stop.asked()) return;
-      const float through = visibility(scene, shadow.ray, shadow.target, shadow.infinite, counts);
-      if (through > 0) seekers.light[shadow.lane] += shadow.light * through;
+      const Interiors* interiors = scene.has_absorption() ? seekers.interiors[shadow.lane] : nullptr;
+      const vec3 through = visibility(scene, shadow.ray, shadow.target, shadow.infinite, counts, interiors);
+      if (!is_black(through)) seekers.light[shadow.lane] += shadow.light * through;
     }
     return;
   }
@@ -124,12 +124,13 @@ void DirectLight::aim(const RenderScene& scene, const VertexLanes& vertices, Lig
 
 vec3 DirectLightOfOne::aim(const RenderScene& scene, const Vertex& vertex, const Bsdf& bsdf,
                            const Sampler& sampler, const PathSettings& settings, RayCounts& counts,
-                           StopPoll& stop) {
+                           StopPoll& stop, const Interiors* interiors) {
   vertices_.set_one(vertex, bsdf);
   seekers_.count = 1;
   seekers_.lane[0] = 0;
   seekers_.sampler[0] = &sampler;
   seekers_.scattered[0] = 0;
+  seekers_.interiors[0] = interiors;
   direct_light_.aim(scene, vertices_, seekers_, settings, counts, stop);
   return seekers_.light[0];
 }

@@ -16,8 +16,17 @@ struct LightSeekers {
   // By lane:
   Lanes<const Sampler*> sampler; ///< stands at the vertex's bounce
   Lanes<int> scattered;          ///< directions that the BSDF's strategy will try there
-  Lanes<vec3> light;             ///< what comes of it: the estimate of f |cos| x radiance
+  Lanes<const Interiors*>
+      interiors;     ///< bodies that the point lies in, on the side of wo; in scenes with absorption
+  Lanes<vec3> light; ///< what comes of it: the estimate of f |cos| x radiance
 };
+
+/// Density, 1/sr, with which a sample of direct light aims along the unit `direction`, for MIS: `pdf` is that
+/// of the light there (light_pdf), which is one of all.
+inline float aimed_pdf(const RenderScene& scene, const LightReference& reference, std::uint32_t light,
+                       float pdf, vec3 direction) {
+  return reference.accepts(direction) ? scene.all_lights().pmf(reference, light) * pdf : 0;
+}
 
 /// For one thread; keep it, for it keeps its memory.
 class DirectLight {
@@ -34,7 +43,7 @@ private:
   struct AimedLanes {
     Vec3Lanes direction; ///< unit, to the light
     Vec3Lanes wi_local;  ///< the same about the normal
-    Lanes<float> cosine; ///< with the geometric normal, on wo's side; all that is aimed from reflects
+    Lanes<float> cosine; ///< with the reference's normal
     // The shadow ray:
     Vec3Lanes origin;
     Vec3Lanes target; ///< its end, off the light's surface; unused where the light is infinite
@@ -72,7 +81,8 @@ private:
 class DirectLightOfOne {
 public:
   vec3 aim(const RenderScene& scene, const Vertex& vertex, const Bsdf& bsdf, const Sampler& sampler,
-           const PathSettings& settings, RayCounts& counts, StopPoll& stop);
+           const PathSettings& settings, RayCounts& counts, StopPoll& stop,
+           const Interiors* interiors = nullptr);
 
 private:
   VertexLanes vertices_;

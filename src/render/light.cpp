@@ -163,9 +163,12 @@ std::optional<LightSample> DirectionalLight::sample(const LightReference&, vec2)
 }
 
 std::optional<LightSample> ConstantLight::sample(const LightReference& ref, vec2 u) const {
+  const bool behind = ref.transmits && u.x < 0.5f;
+  if (ref.transmits) u.x = std::min(behind ? 2 * u.x : 2 * u.x - 1, kOneMinusEpsilon);
   vec3 local = sample_cosine_hemisphere(u);
   if (!(local.z > 0)) return std::nullopt;
   LightSample s;
+  if (behind) local.z = -local.z;
   s.direction = Basis::from_normal(ref.normal).to_world(local);
   s.radiance = radiance;
   s.pdf = pdf(ref, {}, s.direction);

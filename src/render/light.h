@@ -18,11 +18,18 @@ namespace candela {
 struct LightReference {
   vec3 position{0};
   vec3 normal{0, 0, 1}; ///< unit geometric normal, turned to the side that reflects
+  /// Light from behind is scattered, too. No BSDF that lights are aimed from does so yet.
+  bool transmits = false;
   /// Directions that the BSDF scatters are tried as well and weighed against those aimed: a light may leave
   /// to them what they find well.
   bool also_by_chance = false;
   Gloss gloss{};    ///< what the point makes of the light, for choosing among several
   vec3 mirrored{0}; ///< unit, the axis of the glossy lobe
+
+  /// Whether light sampling may aim there: what chooses lights, aims at them and weighs light that was met by
+  /// chance against that must all ask this one. By the cosine with `normal`, or by a unit direction.
+  bool accepts(float cosine) const { return cosine > 0 || (transmits && cosine < 0); }
+  bool accepts(vec3 direction) const { return accepts(glm::dot(normal, direction)); }
 
   EnvironmentAim environment_aim() const {
     return also_by_chance ? EnvironmentAim::bright : EnvironmentAim::all;
@@ -124,15 +131,16 @@ struct DirectionalLight {
   float pdf(const LightReference&, vec3, vec3) const { return 0; }
 };
 
-/// The same radiance from everywhere; all that looks for it reflects, so the hemisphere around its normal is
-/// sampled by the cosine.
+/// The same radiance from everywhere: sampled by the cosine on the reference's side, or on both where it
+/// transmits.
 struct ConstantLight {
   vec3 radiance{0};
 
   vec3 radiance_from(vec3) const { return radiance; }
   std::optional<LightSample> sample(const LightReference& ref, vec2 u) const;
   float pdf(const LightReference& ref, vec3, vec3 direction) const {
-    return cosine_hemisphere_pdf(glm::dot(ref.normal, direction));
+    const float cosine = glm::dot(ref.normal, direction);
+    return ref.transmits ? 0.5f * cosine_hemisphere_pdf(std::abs(cosine)) : cosine_hemisphere_pdf(cosine);
   }
 };
 

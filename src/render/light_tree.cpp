@@ -41,8 +41,8 @@ double usual_irradiance(const Light& light) {
 /// What the reference makes of irradiance on a facing plane, relative: of light from one direction.
 float response(const LightReference& ref, vec3 direction) {
   const Gloss& g = ref.gloss;
-  const float cos_in = glm::dot(direction, ref.normal);
-  if (!(cos_in > 0)) return 0;
+  const float cosine = glm::dot(direction, ref.normal), cos_in = std::abs(cosine);
+  if (!ref.accepts(cosine)) return 0;
   const float off = 1 + g.sharpness * (1 - glm::dot(direction, ref.mirrored));
   return g.diffuse * cos_in + g.peak / sqr(off);
 }
@@ -201,11 +201,13 @@ float LightTree::judge_as(const Node& n, const LightReference& ref, Weights& wei
   Lanes w;
   const vec3 p = ref.position, up = ref.normal, mirrored = ref.mirrored;
   const Gloss gloss = ref.gloss;
+  const float behind = ref.transmits ? -1.0f : 1.0f; // of the cosine, for what the reference accepts there
   for (std::size_t i = 0; i < kWidth; ++i) {
     const float dx = n.x[i] - p.x, dy = n.y[i] - p.y, dz = n.z[i] - p.z; // towards the light
     const float d2 = std::max(dx * dx + dy * dy + dz * dz, kLeastDistance2);
     const float inverse = 1 / std::sqrt(d2);
-    const float cos_up = (dx * up.x + dy * up.y + dz * up.z) * inverse;
+    const float cosine = (dx * up.x + dy * up.y + dz * up.z) * inverse;
+    const float cos_up = std::max(cosine, behind * cosine);
     float cos_w = -(dx * n.axis_x[i] + dy * n.axis_y[i] + dz * n.axis_z[i]) * inverse;
     cos_w = std::max(cos_w, -n.other_side[i] * cos_w);
     const float sin_w = std::sqrt(std::max(1 - cos_w * cos_w, 0.0f));

@@ -23,7 +23,8 @@ struct LightChoice {
 /// reference is glossy, what counts is how near a branch may come to its lobe's axis: on Veach's plates
 /// (tests/bench/versus_cycles) relMSE x spp falls from 0.064 to 0.014.
 ///
-/// Whatever lights a point has probability: what is left out is wholly below its horizon or looks away.
+/// Whatever lights a point has probability: what is left out is wholly on a side of it from which it accepts
+/// no light (LightReference::accepts), or looks away.
 class LightTree {
 public:
   /// As many lights as that may be such that light_bounds() has nothing for them.

@@ -27,8 +27,11 @@ namespace {
     vec3 outside = vertices.geometric_normal[i], local = out.wi_local[i];
     vec3 wi = Basis::from_normal(vertices.normal[i]).to_world(local);
     // The interpolated normal may take it through the surface.
-    bool keeps_side =
-        (glm::dot(wi, outside) * vertices.side[i] > 0) == (local.z * vertices.wo_local.z[i] > 0);
+    float along = glm::dot(wi, outside);
+    bool keeps_side = (along * vertices.side[i] > 0) == (local.z * vertices.wo_local.z[i] > 0);
+    bool folded = static_cast<int>(!keeps_side) & out.folds[i] & static_cast<int>(along != 0);
+    wi = select(folded, mirrored_at_plane(wi, outside), wi);
+    keeps_side = static_cast<int>(keeps_side) | static_cast<int>(folded);
     vec3 carried = out.throughput[i];
     float largest = max_component(carried);
     float worth = largest * out.unscaled[i] / roulette.threshold;

@@ -77,8 +77,13 @@ void PathTracer::intersect(int depth, StopPoll& stop) {
     path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
     Hit& hit = hits_[arrived_.size()]; // at i or before
     if (together) hit = hits_[i];
-    const bool met = together ? look_through(scene_, path.ray, path.sampler, hit.t < kInfinity, hit, counts_)
-                              : intersect_scene(scene_, path.ray, path.sampler, hit, counts_);
+    bool met;
+    if (scene_.has_absorption())
+      met = meet_in_bodies(path, together, hit.t < kInfinity, hit);
+    else if (together)
+      met = look_through(scene_, path.ray, path.sampler, hit.t < kInfinity, hit, counts_);
+    else
+      met = intersect_scene(scene_, path.ray, path.sampler, hit, counts_);
     if (met)
       arrived_.push_back(&path);
     else
@@ -87,20 +92,27 @@ void PathTracer::intersect(int depth, StopPoll& stop) {
   if (shows_depth(settings_, depth)) meet_background(depth);
 }
 
+/// Whether the path's ray meets a surface, and what is left of its light there. `known`: what it meets first
+/// is, as look_through() has it.
+bool PathTracer::meet_in_bodies(Path& path, bool known, bool met, Hit& hit) {
+  Passage passage{path.interiors, vec3(1)};
+  met = known ? look_through(scene_, path.ray, path.sampler, met, hit, counts_, &passage)
+              : intersect_scene(scene_, path.ray, path.sampler, hit, counts_, &passage);
+  path.interiors = passage.interiors;
+  path.throughput *= passage.transmittance;
+  return met;
+}
+
 /// What happens to paths on arrival. Before all else, for emission and light that is aimed at are added up,
 /// and their order must not depend on which paths share lanes.
 void PathTracer::meet_emitters(int depth) {
   for (std::size_t i = 0; i < arrived_.size(); ++i) {
     const SurfaceMaterial& material = scene_.material(scene_.geometry().material_of(hits_[i]));
-    if (!material.emissive && !material.absorbing) continue;
+    if (!material.emissive) continue;
     Path& path = *arrived_[i];
     const Surface surface = scene_.geometry().surface(path.ray, hits_[i]);
     const bool outside = glm::dot(-path.ray.direction, surface.geometric_normal) > 0;
-    if (material.absorbing && !outside) // it came through the inside of this body (Beer-Lambert)
-      path.throughput *=
-          glm::exp(-material.absorption * glm::length(surface.position - path.reference.position));
-    if (material.emissive && (outside || material.two_sided_emission))
-      add_emission(path, surface, material.emission, depth);
+    if (outside || material.two_sided_emission) add_emission(path, surface, material.emission, depth);
   }
 }
 
@@ -128,6 +140,7 @@ void PathTracer::stop_at(std::size_t begin, std::size_t count, int depth, StopPo
     seekers_.lane[seekers_.count++] = i;
     seekers_.sampler[i] = &path.sampler;
     seekers_.scattered[i] = branches;
+    seekers_.interiors[i] = &path.interiors;
   }
   if (shows_depth(settings_, depth + 1)) {
     direct_light_.aim(scene_, vertices_, seekers_, settings_, counts_, stop);
@@ -152,11 +165,11 @@ void PathTracer::prepare_aiming(std::size_t i) {
 }
 
 /// Weight of a light met by chance, given the density (1/sr) with which aiming would have found it.
-float PathTracer::weight_by_chance(const Path& path, float aimed_pdf) const {
+float PathTracer::weight_by_chance(const Path& path, float aimed) const {
   if (path.arrived_by_delta || settings_.light_sampling == LightSampling::bsdf) return 1;
   if (settings_.light_sampling == LightSampling::nee) return 0;
   return mis_weight(settings_.mis_heuristic, path.arrival_density,
-                    aimed_pdf * static_cast<float>(settings_.light_samples));
+                    aimed * static_cast<float>(settings_.light_samples));
 }
 
 bool PathTracer::needs_aimed_pdf(const Path& path) const {
@@ -186,7 +199,7 @@ void PathTracer::meet_background(int depth) {
 }
 
 void PathTracer::add_background(const Path& path, std::uint32_t light, vec3 radiance, float pdf, int depth) {
-  float aimed = needs_aimed_pdf(path) ? scene_.all_lights().pmf(path.reference, light) * pdf : 0;
+  float aimed = needs_aimed_pdf(path) ? aimed_pdf(scene_, path.reference, light, pdf, path.ray.direction) : 0;
   results_[path.result].add(path.throughput * radiance * weight_by_chance(path, aimed), depth);
 }
 
@@ -196,8 +209,9 @@ void PathTracer::add_emission(const Path& path, const Surface& surface, vec3 emi
   if (needs_aimed_pdf(path)) {
     std::uint32_t i = scene_.light_of(surface.emitter);
     if (i != kNoLight)
-      aimed = scene_.all_lights().pmf(path.reference, i) *
-              light_pdf(scene_.lights()[i], path.reference, surface.position, path.ray.direction);
+      aimed = aimed_pdf(scene_, path.reference, i,
+                        light_pdf(scene_.lights()[i], path.reference, surface.position, path.ray.direction),
+                        path.ray.direction);
   }
   results_[path.result].add(path.throughput * emission * weight_by_chance(path, aimed), depth);
 }
@@ -229,6 +243,7 @@ bool PathTracer::leave(std::uint32_t branch, int depth) {
     std::uint32_t k; ///< index into from
     float density;   ///< Path::arrival_density
     bool delta;
+    bool transmitted; ///< to the other side of the surface
   };
   Lanes<Leaving> leaving;
   std::size_t left = 0;
@@ -239,7 +254,11 @@ bool PathTracer::leave(std::uint32_t branch, int depth) {
                               settings_.direction_sampling);
     if (!s) continue;
     const auto branches = static_cast<float>(stop.branches);
-    leaving[left++] = {k, s->pdf * branches, s->delta};
+    const bool folds = several_lobes_ && vertices_.folds(i);
+    float pdf = s->pdf;
+    if (folds && !s->delta) pdf += vertices_.folded_pdf(i, s->wi, settings_.direction_sampling);
+    onward_.folds[i] = static_cast<std::int32_t>(folds);
+    leaving[left++] = {k, pdf * branches, s->delta, !same_hemisphere(vertices_.wo_local[i], s->wi)};
     onward_.wi_local.set(i, s->wi);
     onward_.throughput.set(i, stop.path->throughput / branches * s->weight);
     onward_.unscaled[i] = stop.path->roulette_scale * branches * sqr(s->eta);
@@ -266,6 +285,8 @@ bool PathTracer::leave(std::uint32_t branch, int depth) {
     path.arrived_by_delta = leaving[n].delta;
     path.arrival_density = leaving[n].density;
     path.reference = vertices_.reference[i];
+    path.interiors = stop.path->interiors;
+    if (leaving[n].transmitted) path.interiors.cross(vertices_.material[i]->interior, vertices_.side[i] > 0);
   }
   return true;
 }

@@ -19,10 +19,11 @@ inline constexpr int kMostSegmentsWithoutRoulette = 1024;
 /// The longest path that can matter under the settings, in segments.
 int longest_path(const PathSettings& settings);
 
-/// Where a path begins: in empty space, at a pixel's sample.
+/// Where a path begins, at a pixel's sample.
 struct PathStart {
   Ray ray;
   Sampler sampler;
+  Interiors interiors{}; ///< of the ray's origin, in scenes with absorption
 };
 
 /// Traces paths many at a time, one segment of all of them after the other: all meet their surfaces, all aim
@@ -49,7 +50,8 @@ public:
 private:
   /// A walk on its way: what the next vertex needs to know of those before.
   struct Path {
-    explicit Path(const PathStart& start) : ray(start.ray), sampler(start.sampler) {}
+    explicit Path(const PathStart& start)
+        : ray(start.ray), sampler(start.sampler), interiors(start.interiors) {}
     explicit Path(const Sampler& s) : sampler(s) {}
 
     Ray ray;
@@ -60,6 +62,7 @@ private:
     float roulette_scale = 1;
     std::uint32_t result = 0; ///< the sample that it adds to
     bool split = false;       ///< has, or may not any more
+    Interiors interiors;      ///< of the ray, in scenes with absorption
     // The last vertex: how the path left it.
     bool arrived_by_delta = true; ///< the camera cannot be aimed from
     float arrival_density = 0;    ///< 1/sr, times the number of directions tried there
@@ -78,12 +81,13 @@ private:
   void stop_at(std::size_t begin, std::size_t count, int depth, StopPoll& stop);
   void prepare_aiming(std::size_t lane);
   bool leave(std::uint32_t branch, int depth);
+  bool meet_in_bodies(Path& path, bool known, bool met, Hit& hit);
 
   void meet_background(int depth);
   void add_background(const Path& path, std::uint32_t light, vec3 radiance, float pdf, int depth);
   void add_emission(const Path& path, const Surface& surface, vec3 emission, int depth);
   bool needs_aimed_pdf(const Path& path) const;
-  float weight_by_chance(const Path& path, float aimed_pdf) const;
+  float weight_by_chance(const Path& path, float aimed) const;
 
   const RenderScene& scene_;
   PathSettings settings_;

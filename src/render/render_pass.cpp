@@ -45,7 +45,9 @@ public:
   PixelSampler(const RenderScene& scene, const Document& document, const StopCondition& stop)
       : stop_(stop), scene_(scene), settings_(document.settings), view_(accumulated_view(settings_.view)),
         rays_(document), sampler_(PixelRays::sampler(settings_.sampler)),
-        paths_(scene, path_settings(settings_)) {}
+        paths_(scene, path_settings(settings_)) {
+    if (scene.has_absorption()) camera_interiors_ = interiors_at(scene, rays_.camera().position());
+  }
 
   /// results[i] becomes what sample indices[i] adds to its pixel. False, and results of no use, where it was
   /// asked to stop.
@@ -112,8 +114,12 @@ private:
     Sampler::get_2d(draws_, Dimension::film, film_);
     if (rays_.camera().has_lens()) Sampler::get_2d(draws_, Dimension::lens, lens_);
     weights_.resize(indices.size());
-    for (std::size_t i = 0; i < indices.size(); ++i)
+    for (std::size_t i = 0; i < indices.size(); ++i) {
       weights_[i] = rays_.at(indices[i].pixel, film_[i], lens_[i], starts_[i].ray);
+      if (!scene_.has_absorption()) continue;
+      starts_[i].interiors = camera_interiors_;
+      move_between(scene_, rays_.camera().position(), starts_[i].ray.origin, starts_[i].interiors);
+    }
   }
 
   void view_first_hits(std::span<PixelSample> results, RayCounts& counts) {
@@ -136,7 +142,7 @@ private:
   /// Of an integrator that takes one sample after the other.
   void alone(PathStart& start, PixelSample& result, RayCounts& counts) {
     if (settings_.integrator == Integrator::whitted)
-      show(whitted_radiance(scene_, start.ray, start.sampler, settings_.path, direct_light_, counts, stop_),
+      show(whitted_radiance(scene_, start, start.sampler, settings_.path, direct_light_, counts, stop_),
            result);
     else
       show(ambient_occlusion_sample(scene_, start.ray, start.sampler, settings_, counts), result);
@@ -167,6 +173,7 @@ private:
   Sampler sampler_; ///< of the document's kind
   PathTracer paths_;
   DirectLightOfOne direct_light_;
+  Interiors camera_interiors_; ///< in scenes with absorption
   // Parallel to the samples in flight:
   std::vector<PathStart> starts_;
   std::vector<Sampler::Draw> draws_;

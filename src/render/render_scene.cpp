@@ -1,6 +1,10 @@
 #include "render/render_scene.h"
 
+#include "core/error.h"
 #include "render/texture_lookup.h"
+
+#include <array>
+#include <map>
 
 namespace candela {
 
@@ -76,14 +80,13 @@ void RenderScene::add_materials(const Document& document) {
   for (const Material& m : document.scene.materials) {
     SurfaceMaterial s;
     if (o.brdf != BrdfOverride::none) {
-      s.bsdf =
-          make_bsdf(override_type(o.brdf), o.diffuse, o.specular, o.exponent, o.roughness, o.ior, vec3(1));
+      // A mirror reflects, and nothing else.
+      const vec3 diffuse = o.brdf == BrdfOverride::mirror ? vec3(0) : o.diffuse;
+      s.bsdf = make_bsdf(override_type(o.brdf), diffuse, o.specular, o.exponent, o.roughness, o.ior, vec3(1));
     } else {
       s.bsdf = make_bsdf(m);
       if (m.diffuse_texture >= 0)
         s.diffuse_texture = textures_[static_cast<std::size_t>(m.diffuse_texture)].get();
-      s.absorbing = m.type == MaterialType::dielectric && !is_black(m.absorption);
-      s.absorption = m.absorption;
     }
     s.opacity = m.opacity;
     s.emission = m.emission;
@@ -91,6 +94,25 @@ void RenderScene::add_materials(const Document& document) {
     s.two_sided_emission = m.two_sided_emission;
     has_transparency_ |= m.opacity < 1;
     materials_.push_back(s);
+  }
+  if (o.brdf == BrdfOverride::none) add_interiors(document.scene.materials);
+}
+
+void RenderScene::add_interiors(const std::vector<Material>& materials) {
+  auto is_body = [](const Material& m) { return m.type == MaterialType::dielectric; };
+  if (std::ranges::none_of(materials,
+                           [&](const Material& m) { return is_body(m) && !is_black(m.absorption); }))
+    return;
+  std::map<std::array<float, 3>, std::uint16_t> known;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (!is_body(materials[i])) continue;
+    const vec3 a = materials[i].absorption;
+    const auto [entry, is_new] =
+        known.try_emplace({a.x, a.y, a.z}, static_cast<std::uint16_t>(absorptions_.size()));
+    if (is_new) absorptions_.push_back(a);
+    if (absorptions_.size() >= kNoInterior)
+      throw Error(ExitCode::limit, "materials: there are more than 65534 different absorptions: use fewer");
+    materials_[i].interior = entry->second;
   }
 }
 

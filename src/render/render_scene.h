@@ -9,16 +9,20 @@
 
 namespace candela {
 
+/// Where a surface bounds no body that light enters.
+inline constexpr std::uint16_t kNoInterior = 0xffff;
+
 /// A material as shading needs it.
 struct SurfaceMaterial {
   Bsdf bsdf;
   const Texture* diffuse_texture = nullptr; ///< multiplies the BSDF's diffuse part; null: none
   vec3 emission{0};                         ///< W/(m^2 sr)
-  vec3 absorption{0};                       ///< sigma_a inside, 1/scene unit
   float opacity = 1;
   bool emissive = false;
   bool two_sided_emission = false;
-  bool absorbing = false;
+  /// What is behind the surface: RenderScene::absorption() tells its absorption. The same number for bodies
+  /// that absorb the same; of a clear dielectric, too, where anything absorbs: it may lie inside of that.
+  std::uint16_t interior = kNoInterior;
 };
 
 class RenderScene {
@@ -38,6 +42,10 @@ public:
   const SurfaceMaterial& material(std::uint32_t index) const { return materials_[index]; }
   /// Whether any surface lets light straight through, so that rays must look.
   bool has_transparency() const { return has_transparency_; }
+  /// Whether light fades on its way through any body, so that rays must know where they are.
+  bool has_absorption() const { return !absorptions_.empty(); }
+  /// sigma_a of an interior, 1/scene unit.
+  vec3 absorption(std::uint16_t interior) const { return absorptions_[interior]; }
 
   const std::vector<Light>& lights() const { return lights_; }
   /// The light that a primitive is (part of), or kNoLight.
@@ -62,8 +70,10 @@ private:
   std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
   LightSelection all_lights_, delta_lights_;
   bool has_transparency_ = false;
+  std::vector<vec3> absorptions_; ///< by interior; empty where nothing absorbs
 
   void add_materials(const Document& document);
+  void add_interiors(const std::vector<Material>& materials);
   void add_emitters(const Progress* progress);
   void add_lights(const std::vector<LightDesc>& lights, const RenderScene* previous,
                   const Progress* progress);

@@ -87,6 +87,40 @@ void VertexLanes::meet(const RenderScene& scene, std::span<const Ray* const> ray
   }
 }
 
+namespace {
+
+/// A direction and its mirror image about the surface's plane, in local coordinates, and whether each keeps
+/// the side of the surface that it means.
+struct MirroredPair {
+  vec3 mirrored;
+  bool keeps, mirrored_keeps;
+};
+MirroredPair mirrored_pair(const VertexLanes& v, std::size_t i, vec3 wi_local) {
+  const Basis frame = Basis::from_normal(v.normal[i]);
+  const vec3 outside = v.geometric_normal[i], wi = frame.to_world(wi_local);
+  const float along = glm::dot(wi, outside) * v.side[i], reflected = v.wo_local.z[i];
+  const vec3 mirrored = frame.to_local(mirrored_at_plane(wi, outside));
+  return {mirrored, (along > 0) == (wi_local.z * reflected > 0), (along < 0) == (mirrored.z * reflected > 0)};
+}
+
+} // namespace
+
+BsdfEval VertexLanes::eval_pdf(std::size_t i, vec3 wi_local, DirectionSampling how) const {
+  const BsdfEval own = direction_eval_pdf(bsdf(i), wo_local[i], wi_local, how);
+  if (!folds(i)) return own;
+  const MirroredPair pair = mirrored_pair(*this, i, wi_local);
+  BsdfEval sum{vec3(0), 0};
+  auto add = [&](const BsdfEval& e) { sum = {sum.f_cos + e.f_cos, sum.pdf + e.pdf}; };
+  if (pair.keeps) add(own);
+  if (!pair.mirrored_keeps) add(direction_eval_pdf(bsdf(i), wo_local[i], pair.mirrored, how));
+  return sum;
+}
+
+float VertexLanes::folded_pdf(std::size_t i, vec3 wi_local, DirectionSampling how) const {
+  const MirroredPair pair = mirrored_pair(*this, i, wi_local);
+  return pair.keeps != pair.mirrored_keeps ? direction_pdf(bsdf(i), wo_local[i], pair.mirrored, how) : 0;
+}
+
 void VertexLanes::set_one(const Vertex& vertex, const Bsdf& bsdf) {
   count = 1;
   position.set(0, vertex.surface.position);

@@ -1,6 +1,7 @@
 #pragma once
 // Hits of many rays made ready for scattering, side by side: what Vertex is of one.
 
+#include "bsdf/direction_sampling.h"
 #include "core/lanes.h"
 #include "render/transport.h"
 
@@ -28,6 +29,13 @@ struct VertexLanes {
   const Bsdf& bsdf(std::size_t i) const {
     return material[i]->diffuse_texture != nullptr ? textured[i] : material[i]->bsdf;
   }
+  /// As folds_directions() has it.
+  bool folds(std::size_t i) const { return folds_directions(bsdf(i), normal[i], geometric_normal[i]); }
+  /// f |cos| and the density of wi (local, unit) under `how`, without delta lobes, what is folded onto it
+  /// included.
+  BsdfEval eval_pdf(std::size_t i, vec3 wi_local, DirectionSampling how) const;
+  /// Density that folding adds to a direction that was sampled, before or after it was folded itself.
+  float folded_pdf(std::size_t i, vec3 wi_local, DirectionSampling how) const;
   /// As Vertex::scatters().
   bool scatters(std::size_t i) const { return wo_local.z[i] * side[i] > 0; }
 };

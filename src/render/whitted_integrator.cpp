@@ -19,7 +19,7 @@ struct SpecularRay {
   vec3 throughput{1};
   float eta2 = 1;
   std::uint32_t branch = 1; ///< a bit per choice, the leading one marks their number
-  vec3 previous{0};
+  Interiors interiors{};    ///< of the ray, in scenes with absorption
 };
 
 class WhittedTracer {
@@ -32,9 +32,10 @@ public:
     settings_.light_sampling = LightSampling::nee;
   }
 
-  PathSample trace(const Ray& ray) {
+  PathSample trace(const PathStart& start) {
     SpecularRay first;
-    first.ray = ray;
+    first.ray = start.ray;
+    first.interiors = start.interiors;
     follow(first, 1);
     return sample_;
   }
@@ -45,7 +46,12 @@ private:
     for (; depth <= last_depth_ && !stop_.asked(); ++depth) {
       stand_at(path, depth);
       Hit hit;
-      if (!intersect_scene(scene_, path.ray, sampler_, hit, counts_)) {
+      Passage passage{path.interiors, vec3(1)};
+      const bool met = intersect_scene(scene_, path.ray, sampler_, hit, counts_,
+                                       scene_.has_absorption() ? &passage : nullptr);
+      path.interiors = passage.interiors;
+      path.throughput *= passage.transmittance;
+      if (!met) {
         add_background(path, depth);
         return;
       }
@@ -53,14 +59,13 @@ private:
       const Surface& surface = vertex.surface;
       const SurfaceMaterial& material = *vertex.material;
       bool outside = vertex.side > 0;
-      if (material.absorbing && !outside)
-        path.throughput *= glm::exp(-material.absorption * glm::length(surface.position - path.previous));
       if (material.emissive && (outside || material.two_sided_emission) && shows_depth(settings_, depth))
         sample_.add(path.throughput * material.emission, depth);
       if (depth == last_depth_ || !vertex.scatters()) return;
       Bsdf bsdf = material.diffuse_texture != nullptr ? evaluate_bsdf(material, surface) : material.bsdf;
       if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1) {
-        vec3 light = direct_light_.aim(scene_, vertex, bsdf, sampler_, settings_, counts_, stop_);
+        vec3 light =
+            direct_light_.aim(scene_, vertex, bsdf, sampler_, settings_, counts_, stop_, &path.interiors);
         sample_.add_aimed(path.throughput * light, depth + 1);
       }
       if (!leave(path, vertex, bsdf, depth)) return;
@@ -92,7 +97,11 @@ private:
 
   bool take(SpecularRay& path, const Vertex& vertex, const DeltaLobe& lobe, float probability, int depth) {
     vec3 wi = vertex.frame.to_world(lobe.wi);
-    if (!vertex.keeps_side(wi, same_hemisphere(vertex.wo_local, lobe.wi))) return false;
+    const bool reflected = same_hemisphere(vertex.wo_local, lobe.wi);
+    if (!vertex.keeps_side(wi, reflected)) { // folded back, see folds_directions()
+      wi = mirrored_at_plane(wi, vertex.surface.geometric_normal);
+      if (!vertex.keeps_side(wi, reflected)) return false;
+    }
     path.throughput *= lobe.transfer / probability;
     path.eta2 *= sqr(lobe.eta);
     float largest = max_component(path.throughput);
@@ -104,7 +113,7 @@ private:
       if (sampler_.get_1d(Dimension::russian_roulette) >= q) return false;
       path.throughput /= q;
     }
-    path.previous = vertex.surface.position;
+    if (!reflected) path.interiors.cross(vertex.material->interior, vertex.side > 0);
     path.ray = spawn_ray(vertex.surface, wi);
     return true;
   }
@@ -131,10 +140,10 @@ private:
 
 } // namespace
 
-PathSample whitted_radiance(const RenderScene& scene, const Ray& ray, Sampler& sampler,
+PathSample whitted_radiance(const RenderScene& scene, const PathStart& start, Sampler& sampler,
                             const PathSettings& settings, DirectLightOfOne& direct_light, RayCounts& counts,
                             StopPoll& stop) {
-  return WhittedTracer(scene, sampler, settings, direct_light, counts, stop).trace(ray);
+  return WhittedTracer(scene, sampler, settings, direct_light, counts, stop).trace(start);
 }
 
 } // namespace candela

@@ -4,6 +4,7 @@
 
 #include <iterator>
 #include <map>
+#include <utility>
 
 namespace candela {
 
@@ -155,6 +156,25 @@ const Field<Shape> kTorusFields[] = {
 
 std::span<const Field<Material>> material_fields() { return kMaterialFields; }
 std::span<const Field<LightDesc>> light_fields() { return kLightFields; }
+
+Material default_material(MaterialType type) {
+  Material material;
+  material.type = type;
+  if (type == MaterialType::mirror) material.diffuse = vec3(0), material.specular = vec3(1);
+  return material;
+}
+
+void change_type(Material& material, MaterialType type) {
+  const MaterialType before = std::exchange(material.type, type);
+  if (before == type) return;
+  Material defaults = default_material(type);
+  for (const auto& row : material_fields())
+    if (material_uses(type, row.key) && !material_uses(before, row.key))
+      field_copy(row, row.address(material), row.address(defaults));
+  // Diffuse parts mean more of the same to others; to a mirror, that it is half matte.
+  const bool mirror = type == MaterialType::mirror || before == MaterialType::mirror;
+  if (mirror && material_uses(type, "diffuse")) material.diffuse = defaults.diffuse;
+}
 
 bool material_uses(MaterialType type, std::string_view key) {
   using enum MaterialType;

@@ -57,6 +57,12 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
+/// What a material of the type is where nothing else is said: a mirror reflects all and has no diffuse part.
+Material default_material(MaterialType type);
+/// Another type. Values that both types use are kept, but that a mirror becomes one without a diffuse part;
+/// the others become the new type's defaults.
+void change_type(Material& material, MaterialType type);
+
 enum class LightType : int { point, directional, constant, spot, environment };
 
 /// Where a panorama has which direction; see render/environment_map.h for the axes.

@@ -137,6 +137,22 @@ inline Document environment_scene() {
   return s.document;
 }
 
+/// Coarse meshes with interpolated normals, which take many directions to the wrong side of the surface.
+inline Document smooth_gloss_scene() {
+  SceneMaker s(8, 8, 1);
+  s.rectangle({0, -1, 0}, {0, 0, 4}, {4, 0, 0}, s.diffuse(vec3(0.5f)));
+  const Material kinds[] = {strategy_material(MaterialType::ggx, vec3(0), {0.9f, 0.8f, 0.7f}),
+                            strategy_material(MaterialType::phong, vec3(0.3f), vec3(0.6f))};
+  for (int i = 0; i < 2; ++i)
+    s.mesh(sphere_mesh(4, 6, true), s.material(kinds[i]),
+           glm::translate(mat4(1), {i == 0 ? -1.1f : 1.1f, 0, 0}));
+  s.rectangle({0, 3, -1}, {1, 0, 0}, {0, 0, 1}, s.diffuse(vec3(0), vec3(6)));
+  s.rectangle({0, 0, -4}, {3, 0, 0}, {0, 3, 0}, s.diffuse(vec3(0.2f), vec3(0.5f)));
+  s.constant_light(vec3(0.3f));
+  s.camera({0, 1.5f, 5}, {0, 0, 0}, 40);
+  return s.document;
+}
+
 inline std::vector<NamedScene> strategy_scenes() {
   using enum MaterialType;
   Document cornell = cornell_flush(8, 8, 1, true).document;
@@ -146,7 +162,8 @@ inline std::vector<NamedScene> strategy_scenes() {
           {"mirror and glass", mirror_and_glass_scene()},
           {"instances, texture, screen", instances_scene()},
           {"sky, sun and lamp", sky_sun_and_lamp_scene()},
-          {"environment and spot", environment_scene()}};
+          {"environment and spot", environment_scene()},
+          {"coarse smooth gloss", smooth_gloss_scene()}};
 }
 
 } // namespace candela::test
