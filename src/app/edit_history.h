@@ -7,6 +7,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct OpenScene {
   Document saved;   ///< as its file has it
   Bounds3 bounds;   ///< world space
   std::vector<std::string> warnings;
+  std::set<std::string> files; ///< LoadedScene::files
 };
 
 /// One step of the history: all that an undo brings back.

@@ -16,27 +16,27 @@ FileWatch::~FileWatch() {
   thread_.join();
 }
 
-void FileWatch::watch(std::vector<std::string> files) {
+void FileWatch::watch(std::set<std::string> files) {
   {
     std::lock_guard lock(mutex_);
     files_ = std::move(files);
     ++generation_;
-    changed_ = false;
+    changed_.clear();
   }
   ended_.notify_one();
 }
 
-bool FileWatch::take_change() {
+std::set<std::string> FileWatch::take_changes() {
   std::lock_guard lock(mutex_);
-  return std::exchange(changed_, false);
+  return std::exchange(changed_, {});
 }
 
 bool FileWatch::has_change() const {
   std::lock_guard lock(mutex_);
-  return changed_;
+  return !changed_.empty();
 }
 
-FileWatch::Stamps FileWatch::look(const std::vector<std::string>& files) {
+FileWatch::Stamps FileWatch::look(const std::set<std::string>& files) {
   Stamps stamps;
   for (const std::string& file : files) {
     std::error_code failed;
@@ -54,18 +54,25 @@ void FileWatch::run(double seconds) {
   Stamps base, last;
   std::unique_lock lock(mutex_);
   while (!stopping_) {
-    const std::vector<std::string> files = files_;
+    const std::set<std::string> files = files_;
     const std::uint64_t generation = generation_;
     lock.unlock();
+    const auto began = std::chrono::steady_clock::now();
     const Stamps now = look(files);
+    const std::chrono::duration<double> looked = std::chrono::steady_clock::now() - began;
     lock.lock();
     bool news = false;
     if (generation != known) {
       known = generation;
       base = now;
     } else if (now != base && now == last && generation == generation_) {
+      std::size_t i = 0;
+      for (const std::string& file : files) {
+        if (now[i] != base[i]) changed_.insert(file);
+        ++i;
+      }
       base = now;
-      changed_ = news = true;
+      news = true;
     }
     last = now;
     if (news && wake_) {
@@ -73,7 +80,9 @@ void FileWatch::run(double seconds) {
       wake_();
       lock.lock();
     }
-    ended_.wait_for(lock, std::chrono::duration<double>(seconds),
+    // Thousands of files, or a slow disk, are looked at the more seldom.
+    constexpr double kShare = 0.05;
+    ended_.wait_for(lock, std::max(std::chrono::duration<double>(seconds), looked / kShare),
                     [&] { return stopping_ || generation_ != known; });
   }
 }

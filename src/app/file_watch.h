@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,11 +21,11 @@ public:
   FileWatch& operator=(const FileWatch&) = delete;
 
   /// Watches these instead, as they are now.
-  void watch(std::vector<std::string> files);
+  void watch(std::set<std::string> files);
 
-  /// Whether any of them was written, made or removed since, and then came to rest: a file that is still
-  /// being written would be read half. True once for each such change.
-  bool take_change();
+  /// Those that were written, made or removed since, and then came to rest: a file that is still being
+  /// written would be read half. Each change is told once.
+  std::set<std::string> take_changes();
   bool has_change() const;
 
 private:
@@ -34,16 +35,16 @@ private:
     std::uintmax_t size = 0;
     bool operator==(const Stamp&) const = default;
   };
-  using Stamps = std::vector<Stamp>;
-  static Stamps look(const std::vector<std::string>& files);
+  using Stamps = std::vector<Stamp>; ///< in the order of the files
+  static Stamps look(const std::set<std::string>& files);
   void run(double seconds);
 
   std::function<void()> wake_;
   mutable std::mutex mutex_; // never held while files are looked at
   std::condition_variable ended_;
-  std::vector<std::string> files_;
+  std::set<std::string> files_;
   std::uint64_t generation_ = 0; ///< of files_
-  bool changed_ = false;
+  std::set<std::string> changed_;
   bool stopping_ = false;
   std::thread thread_;
 };

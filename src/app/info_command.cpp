@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <set>
 
 namespace candela {
@@ -60,7 +61,19 @@ int run_info(const SceneOptions& options) {
 
   nlohmann::ordered_json out;
   out["scene"] = options.path;
+  out["files"] = nlohmann::ordered_json::array();
+  for (const std::string& file : loaded.files) {
+    std::error_code failed;
+    nlohmann::ordered_json entry = {{"path", file}};
+    if (!std::filesystem::is_regular_file(file, failed)) entry["missing"] = true;
+    out["files"].push_back(std::move(entry));
+  }
   out["instances"] = desc.instances.size();
+  out["shapes"] = nlohmann::ordered_json::object();
+  for (const Instance& instance : desc.instances) {
+    auto& count = out["shapes"][std::string(shape_name(instance.shape))];
+    count = count.is_null() ? 1 : count.get<int>() + 1;
+  }
   out["meshes"] = meshes.size();
   out["triangles"] = {{"distinct", distinct}, {"placed", placed}};
   out["spheres"] = geometry.spheres().size();

@@ -37,6 +37,7 @@ struct ViewerOptions {
   Document document;                             ///< shown first
   std::string scene_path;                        ///< where it came from; empty: built in
   std::vector<std::string> warnings;             ///< of reading it
+  std::set<std::string> files;                   ///< LoadedScene::files
   ReadOptions reading;                           ///< of scenes that are opened later
   bool fit_film = true;                          ///< the film follows the window; else the document's size
   int threads = 0;                               ///< for rendering; 0: every core
@@ -161,7 +162,9 @@ private:
   void write_preferences_if_changed();
   void light_with(std::shared_ptr<const Panorama> panorama);
   void install_scene(Document document, std::string path, std::vector<std::string> warnings,
-                     const Bounds3& bounds);
+                     const Bounds3& bounds, std::set<std::string> files);
+  void watch_files();
+  void read_panoramas_again(const std::set<std::string>& changed);
   void save_shown_picture();
 
   // viewer_compare.cpp

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,6 +18,9 @@ struct FoundFile {
   std::string shown;
   std::string canonical;
 };
+
+/// Absolute and without symbolic links; as far as that can be told, for what does not exist.
+std::string canonical_path(const std::string& path);
 
 /// The folder part of a path, "." for a bare name.
 std::string folder_of(const std::string& path);
@@ -43,10 +47,15 @@ public:
   FoundFile require(const std::string& reference, const std::string& base_folder, const Location& where,
                     std::string_view element) const;
 
+  /// Canonical paths of all files that it was asked for and that may be named, whether they exist or not.
+  /// Copies of a policy share it.
+  const std::set<std::string>& asked() const { return *asked_; }
+
 private:
   std::string root_; ///< canonical
   bool allow_outside_;
   std::set<std::string> admitted_;
+  std::shared_ptr<std::set<std::string>> asked_ = std::make_shared<std::set<std::string>>();
 };
 
 } // namespace candela

@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 namespace candela {
 
 namespace {
@@ -38,15 +36,23 @@ Document read_obj_scene(const FoundFile& file, const PathPolicy& policy, Warning
 }
 
 /// Reads any format but .ini.
-Document read_by_ending(const FoundFile& file, const ReadOptions& options, const Location& where,
+Document read_by_ending(const FoundFile& file, const PathPolicy& policy, const Location& where,
                         WarningList& warnings) {
-  PathPolicy policy(folder_of(file.shown), options.allow_outside);
   std::string ending = lower_ending(file.shown);
   if (ending == ".json") return read_candela_json(file, policy, warnings);
   if (ending == ".obj") return read_obj_scene(file, policy, warnings);
   if (ending == ".xml") return read_cs123(file, policy, warnings);
   throw input_error(where, "scene", fmt::format("no scene format is known by the ending '{}'", ending),
                     "give a .json, .obj, .xml or .ini file, or a .png or .exr that Candela saved");
+}
+
+/// A scene of its own, or the one of a job.
+void read_document(const FoundFile& file, const ReadOptions& options, const Location& where,
+                   WarningList& warnings, LoadedScene& loaded) {
+  const PathPolicy policy(folder_of(file.shown), options.allow_outside);
+  loaded.document = read_by_ending(file, policy, where, warnings);
+  loaded.files = policy.asked();
+  loaded.files.insert(file.canonical);
 }
 
 } // namespace
@@ -57,19 +63,16 @@ LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
   LoadedScene loaded;
   if (lower_ending(path) == ".ini") {
     IniJob job = read_ini_job(path, options.allow_outside);
-    loaded.document = read_by_ending(job.scene, options, {path}, warnings);
+    read_document(job.scene, options, {path}, warnings, loaded);
     loaded.document.settings = job.settings;
     if (!job.output.empty()) loaded.output_files.push_back(job.output);
   } else if (std::string ending = lower_ending(path); ending == ".png" || ending == ".exr") {
     loaded = read_picture_state(path, options, warnings);
   } else {
     // The scene itself may lie anywhere: the user has named it. Opening it says what is wrong with it.
-    std::error_code failed;
-    std::filesystem::path canonical =
-        std::filesystem::weakly_canonical(std::filesystem::absolute(path), failed);
-    FoundFile file{path, failed ? path : canonical.string()};
-    loaded.document = read_by_ending(file, options, {path}, warnings);
+    read_document({path, canonical_path(path)}, options, {path}, warnings, loaded);
   }
+  loaded.files.insert(canonical_path(path));
   const SceneDesc& scene = loaded.document.scene;
   if (!has_light(scene)) warnings.add({path}, "nothing in the scene shines: the picture will be black");
   loaded.warnings = warnings.warnings();

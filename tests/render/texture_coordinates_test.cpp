@@ -1,6 +1,7 @@
 // Texture coordinates belong to a shape's own space: they go where its transform takes it, whatever that
 // turns, mirrors or stretches, and whether the shape stays what it is or becomes triangles.
 
+#include "render/picking.h"
 #include "render_testing.h"
 
 namespace {
@@ -241,6 +242,18 @@ TEST(TextureCoordinatesRender, TurnWithTheirSphereInEveryIntegratorAndView) {
       EXPECT_LT(same, 0.1 * other) << static_cast<int>(integrator) << ' ' << static_cast<int>(view);
       EXPECT_GT(other, 0.03) << static_cast<int>(integrator) << ' ' << static_cast<int>(view);
     }
+}
+
+TEST(TextureCoordinatesRender, APickTellsWhatTheViewShows) {
+  Document d = quarters(glm::rotate(mat4(1), 1.0f, glm::normalize(vec3(1, 2, 3))), View::uv);
+  d.settings.film.filter_radius = 0.01f; // the pixels' centres
+  const Film film = render(d);
+  const auto scene = RenderScene::build(d);
+  for (ivec2 at : {ivec2(12, 12), ivec2(8, 15), ivec2(16, 9)}) {
+    const auto picked = pick(*scene, d, vec2(at) + 0.5f);
+    ASSERT_TRUE(picked);
+    EXPECT_LT(glm::length(vec2(film.mean(at.x, at.y)) - picked->uv), 2e-3f);
+  }
 }
 
 } // namespace
