@@ -2,12 +2,12 @@
 // Undo and redo: Documents are cheap to copy, so every step keeps a whole one.
 
 #include "core/bounds.h"
+#include "io/file_stamp.h"
 #include "scene/document.h"
 
 #include <deque>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -20,7 +20,7 @@ struct OpenScene {
   Document saved;   ///< as its file has it
   Bounds3 bounds;   ///< world space
   std::vector<std::string> warnings;
-  std::set<std::string> files; ///< LoadedScene::files
+  FileStamps files; ///< LoadedScene::files
 };
 
 /// One step of the history: all that an undo brings back.

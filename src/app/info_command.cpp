@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <filesystem>
 #include <set>
 
 namespace candela {
@@ -62,10 +61,9 @@ int run_info(const SceneOptions& options) {
   nlohmann::ordered_json out;
   out["scene"] = options.path;
   out["files"] = nlohmann::ordered_json::array();
-  for (const std::string& file : loaded.files) {
-    std::error_code failed;
+  for (const auto& [file, stamp] : loaded.files) {
     nlohmann::ordered_json entry = {{"path", file}};
-    if (!std::filesystem::is_regular_file(file, failed)) entry["missing"] = true;
+    if (!stamp.exists) entry["missing"] = true;
     out["files"].push_back(std::move(entry));
   }
   out["instances"] = desc.instances.size();

@@ -46,12 +46,12 @@ std::shared_ptr<const Panorama> panorama_without_scene(const std::string& path,
 
 } // namespace
 
-void Viewer::light_with(std::shared_ptr<const Panorama> panorama) {
+void Viewer::light_with(std::shared_ptr<const Panorama> panorama, const FileStamps& files) {
   const auto selected = static_cast<std::size_t>(std::max(state_.selected_light, 0));
   state_.selected_light =
       static_cast<int>(set_environment(state_.document.scene, std::move(panorama), selected));
   state_.edited = true;
-  watch_files();
+  watch_files(files);
 }
 
 void Viewer::open_scene(const std::string& path, bool reload) {
@@ -67,11 +67,12 @@ void Viewer::open_scene(const std::string& path, bool reload) {
   reader_.post([this, path, request, reload, options]() -> TaskThread::Completion {
     std::string problem;
     try {
+      const FileStamps stamps{{path, file_stamp(path)}};
       if (auto panorama = panorama_without_scene(path, options.progress))
-        return [this, path, request, panorama] {
+        return [this, path, request, panorama, stamps] {
           if (request != open_requests_) return;
           state_.reading = false;
-          light_with(panorama);
+          light_with(panorama, stamps);
           notify(fmt::format("{} lights the scene: see Lights", path));
         };
       LoadedScene loaded = read_scene(path, options);
@@ -118,20 +119,21 @@ void Viewer::finish_opening(const std::string& path, LoadedScene& loaded, const 
 }
 
 void Viewer::install_scene(Document document, std::string path, std::vector<std::string> warnings,
-                           const Bounds3& bounds, std::set<std::string> files) {
+                           const Bounds3& bounds, FileStamps files) {
   auto scene = std::make_shared<OpenScene>(
       OpenScene{std::move(path), document, document, bounds, std::move(warnings), std::move(files)});
-  show_state({std::move(document), state_.fit_film, std::move(scene)});
+  const FileStamps read = scene->files;
+  show_state({std::move(document), state_.fit_film, std::move(scene)}, read);
   state_.selected_material = state_.selected_light = 0;
   state_.selection = {};
   state_.error.clear();
   state_.question = Question::none;
 }
 
-void Viewer::show_state(const EditState& edit) {
+void Viewer::show_state(const EditState& edit, const FileStamps& read) {
   state_.document = edit.document;
   state_.fit_film = edit.fit_film;
-  if (std::exchange(scene_, edit.scene) != edit.scene) watch_files();
+  if (std::exchange(scene_, edit.scene) != edit.scene) watch_files(read);
   state_.home = scene_->home;
   state_.scene_path = scene_->path;
   state_.warnings = scene_->warnings;
@@ -160,13 +162,14 @@ void Viewer::cancel_building() {
   notify("Gave up building: redo takes it up again");
 }
 
-/// The scene's files, and those of panoramas that were dropped on it since.
-void Viewer::watch_files() {
+/// The scene's files, and those of panoramas that were dropped on it since. `known`: as they were when they
+/// were read or written just now.
+void Viewer::watch_files(FileStamps known) {
   std::set<std::string> files = source_files(state_.document.scene);
-  files.insert(scene_->files.begin(), scene_->files.end());
+  for (const auto& [file, stamp] : scene_->files) files.insert(file);
   if (!scene_->path.empty())
     files.insert(scene_->path); // a link, perhaps, which may be made to lead elsewhere
-  watch_.watch(std::move(files));
+  watch_.watch(std::move(files), std::move(known));
 }
 
 /// Panoramas that the scene's files do not have yet: they are replaced where they shine, with all edits kept.
@@ -256,17 +259,17 @@ void Viewer::save_scene_to(const std::string& path) {
   }
   writer_.post([this, path, document = std::move(document), scene = scene_]() -> TaskThread::Completion {
     try {
-      std::set<std::string> files = source_files(document.scene);
-      for (const ExportedFile& copied :
-           export_candela_json(document, path)) // pictures from elsewhere come along
-        files.insert(canonical_path(copied.to));
-      files.insert(canonical_path(path));
-      return [this, path, document, scene, files] {
+      FileStamps written;
+      for (const ExportedFile& copied : export_candela_json(document, path)) // pictures from elsewhere
+        written.emplace(canonical_path(copied.to), file_stamp(copied.to));
+      for (const std::string& file : {path, canonical_path(path)}) written.emplace(file, file_stamp(file));
+      return [this, path, document, scene, written] {
         scene->files.erase(canonical_path(scene->path));
         scene->path = path;
         scene->saved = document;
-        scene->files.insert(files.begin(), files.end()); // libraries of meshes stay
-        if (scene == scene_) state_.scene_path = path, watch_files();
+        for (const std::string& file : source_files(document.scene)) scene->files.try_emplace(file);
+        for (const auto& [file, stamp] : written) scene->files[file] = stamp;
+        if (scene == scene_) state_.scene_path = path, watch_files(written);
         remember_recent(path);
         update_modified();
         notify(fmt::format("Saved {}", path));

@@ -66,7 +66,8 @@ std::optional<FoundFile> PathPolicy::find(const std::string& reference, const st
     throw input_error(where, element,
                       fmt::format("'{}' lies outside the scene's folder tree ({})", reference, root_),
                       "move it there, or allow it with --allow-outside");
-  asked_->insert(canonical.string());
+  if (!asked_->contains(canonical.string()))
+    asked_->emplace(canonical.string(), file_stamp(canonical.string()));
   if (!is_file(canonical)) return std::nullopt;
   // The short form leads elsewhere if it drops a ".." behind a link; files beside this one start from it.
   fs::path shown = full();

@@ -3,6 +3,7 @@
 // not to the rest of the disk.
 
 #include "core/error.h"
+#include "io/file_stamp.h"
 
 #include <memory>
 #include <optional>
@@ -47,15 +48,15 @@ public:
   FoundFile require(const std::string& reference, const std::string& base_folder, const Location& where,
                     std::string_view element) const;
 
-  /// Canonical paths of all files that it was asked for and that may be named, whether they exist or not.
-  /// Copies of a policy share it.
-  const std::set<std::string>& asked() const { return *asked_; }
+  /// All files that it was asked for and that may be named, whether they exist or not, by their canonical
+  /// paths, as they were then. Copies of a policy share it.
+  const FileStamps& asked() const { return *asked_; }
 
 private:
   std::string root_; ///< canonical
   bool allow_outside_;
   std::set<std::string> admitted_;
-  std::shared_ptr<std::set<std::string>> asked_ = std::make_shared<std::set<std::string>>();
+  std::shared_ptr<FileStamps> asked_ = std::make_shared<FileStamps>();
 };
 
 } // namespace candela

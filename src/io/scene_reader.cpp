@@ -50,9 +50,10 @@ Document read_by_ending(const FoundFile& file, const PathPolicy& policy, const L
 void read_document(const FoundFile& file, const ReadOptions& options, const Location& where,
                    WarningList& warnings, LoadedScene& loaded) {
   const PathPolicy policy(folder_of(file.shown), options.allow_outside);
+  const FileStamp stamp = file_stamp(file.canonical);
   loaded.document = read_by_ending(file, policy, where, warnings);
   loaded.files = policy.asked();
-  loaded.files.insert(file.canonical);
+  loaded.files[file.canonical] = stamp;
 }
 
 } // namespace
@@ -61,6 +62,7 @@ LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
   WarningList warnings(options.progress);
   warnings.check_stop();
   LoadedScene loaded;
+  const FileStamp stamp = file_stamp(path);
   if (lower_ending(path) == ".ini") {
     IniJob job = read_ini_job(path, options.allow_outside);
     read_document(job.scene, options, {path}, warnings, loaded);
@@ -72,7 +74,7 @@ LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
     // The scene itself may lie anywhere: the user has named it. Opening it says what is wrong with it.
     read_document({path, canonical_path(path)}, options, {path}, warnings, loaded);
   }
-  loaded.files.insert(canonical_path(path));
+  loaded.files[canonical_path(path)] = stamp;
   const SceneDesc& scene = loaded.document.scene;
   if (!has_light(scene)) warnings.add({path}, "nothing in the scene shines: the picture will be black");
   loaded.warnings = warnings.warnings();

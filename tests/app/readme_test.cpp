@@ -65,7 +65,7 @@ std::string printed(const std::string& name) {
 }
 
 std::vector<std::string> handled_keys(const std::string& code) {
-  static const std::regex kKey("(case|==) Key::([a-z_0-9]+)");
+  static const std::regex kKey("(case|\\(key ==) Key::([a-z_0-9]+)");
   std::vector<std::string> out;
   for (std::sregex_iterator at(code.begin(), code.end(), kKey), end; at != end; ++at) out.push_back((*at)[2]);
   return out;

@@ -9,11 +9,10 @@
 namespace candela::test {
 namespace {
 
-Document document_of(const std::vector<Shape>& shapes) {
+/// It alone, under a light.
+Document document_of(const Shape& shape) {
   Document document = test_document();
-  for (const Shape& shape : shapes)
-    document.scene.instances.push_back(
-        {"", shape, glm::scale(glm::translate(mat4(1), vec3(-0.3f, -0.5f, 0)), vec3(0.2f)), {0}});
+  document.scene.instances = {{"", shape, mat4(1), {0}}};
   return document;
 }
 
@@ -35,23 +34,23 @@ std::set<std::string> object_widgets(const ViewerHarness& hand) {
   return names;
 }
 
-void select(ViewerHarness& hand, std::size_t index) {
+void select(ViewerHarness& hand) {
   hand.unfold("panel.objects", "list.objects");
-  hand.click(fmt::format("objects/{}", index));
+  hand.click("objects/0");
   hand.frame(2);
 }
 
 TEST(ViewerShapesUi, EveryShapeIsNamedAndShowsTheValuesOfItsKindAndNoOthers) {
   const std::vector<Shape> shapes = all_shapes();
   ASSERT_EQ(shapes.size(), shape_names().size());
-  ViewerHarness hand(document_of(shapes));
   std::set<std::string> keys; // of all kinds
   for (const Shape& shape : shapes)
     for (const auto& row : shape_fields(shape)) keys.insert(fmt::format("object.{}", row.key));
   EXPECT_TRUE(keys.contains("object.minor_radius"));
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     SCOPED_TRACE(shape_name(shapes[i]));
-    select(hand, test_document().scene.instances.size() + i);
+    ViewerHarness hand(document_of(shapes[i]));
+    select(hand);
     std::set<std::string> expected{fmt::format("object.shape/{}", shape_name(shapes[i]))};
     for (const auto& row : shape_fields(shapes[i])) expected.insert(fmt::format("object.{}", row.key));
     std::set<std::string> shown;
@@ -63,16 +62,15 @@ TEST(ViewerShapesUi, EveryShapeIsNamedAndShowsTheValuesOfItsKindAndNoOthers) {
 }
 
 TEST(ViewerShapesUi, EveryValueIsEditedUndoneAndKeptWithinItsLimits) {
-  const std::vector<Shape> shapes = all_shapes();
-  ViewerHarness hand(document_of(shapes));
-  hand.wait_for_picture();
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const std::size_t index = test_document().scene.instances.size() + i;
-    select(hand, index);
-    for (const auto& row : shape_fields(shapes[i])) {
-      SCOPED_TRACE(fmt::format("{}: {}", shape_name(shapes[i]), row.key));
+  for (const Shape& given : all_shapes()) {
+    if (shape_fields(given).empty()) continue;
+    ViewerHarness hand(document_of(given));
+    hand.wait_for_picture();
+    select(hand);
+    for (const auto& row : shape_fields(given)) {
+      SCOPED_TRACE(fmt::format("{}: {}", shape_name(given), row.key));
       const std::string name = fmt::format("object.{}", row.key);
-      auto shape = [&]() -> const Shape& { return hand.document().scene.instances[index].shape; };
+      auto shape = [&]() -> const Shape& { return hand.document().scene.instances[0].shape; };
       auto text = [&] { return field_text(row, shape()); };
       const std::string before = text();
       const std::uint64_t restarts = hand.viewer.session().status().restarts;
@@ -86,23 +84,22 @@ TEST(ViewerShapesUi, EveryValueIsEditedUndoneAndKeptWithinItsLimits) {
           EXPECT_EQ(document_problem(hand.document()), "") << typed;
           EXPECT_NE(text(), before) << typed;
         }
-        if (row.key != "radius" || shape_name(shapes[i]) != "torus") { EXPECT_EQ(text(), "0.2"); }
+        if (row.key != "radius" || shape_name(given) != "torus") { EXPECT_EQ(text(), "0.2"); }
       }
       hand.wait_until("it is rendered", [&] { return hand.viewer.session().status().restarts > restarts; });
       hand.wait_for_picture();
-      EXPECT_EQ(hand.state().undo_name, fmt::format("Object {}: {}", index, row.key));
+      EXPECT_EQ(hand.state().undo_name, fmt::format("Object 0: {}", row.key));
       for (int k = 0; k < 10 && text() != before; ++k) hand.click("undo"), hand.frame(2);
       EXPECT_EQ(text(), before);
-      EXPECT_EQ(shape(), shapes[i]);
+      EXPECT_EQ(shape(), given);
     }
   }
 }
 
 TEST(ViewerShapesUi, ATorusKeepsItsTubeThinnerThanItsCircle) {
-  ViewerHarness hand(document_of({TorusShape{1, 0.25f}}));
-  const std::size_t index = test_document().scene.instances.size();
-  select(hand, index);
-  auto torus = [&] { return std::get<TorusShape>(hand.document().scene.instances[index].shape); };
+  ViewerHarness hand(document_of(TorusShape{1, 0.25f}));
+  select(hand);
+  auto torus = [&] { return std::get<TorusShape>(hand.document().scene.instances[0].shape); };
   hand.type_into("object.minor_radius", "7");
   EXPECT_LT(torus().minor_radius, torus().radius);
   EXPECT_GT(torus().minor_radius, 0.99f);

@@ -116,20 +116,37 @@ TEST(ViewerWatchUi, APanoramaThatWasDroppedIsReplacedAndNoEditIsLost) {
   EXPECT_EQ(sky()->panorama->image.pixels[0].x, 8) << "the old one stays";
 }
 
-TEST(ViewerWatchUi, AFileBesideTheSceneIsNot) {
-  ScratchFolder folder;
-  write_sky(folder / "sky.hdr", 0.25f);
-  FileWatch watch({}, 0.01);
-  watch.watch({folder / "sky.hdr", folder / "late.mtl"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(200)); // it has looked
-  write_text(folder / "other.txt", "x");
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  EXPECT_FALSE(watch.has_change());
-  write_text(folder / "late.mtl", "newmtl a\n");
+void wait_for_change(const FileWatch& watch) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (!watch.has_change() && std::chrono::steady_clock::now() < end)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  EXPECT_EQ(watch.take_changes(), std::set<std::string>{folder / "late.mtl"});
+}
+
+TEST(FileWatch, TellsWhichOfItsFilesChangedSinceTheyWereReadOnce) {
+  ScratchFolder folder;
+  const std::string a = folder / "a", b = folder / "b", late = folder / "late";
+  write_text(a, "1");
+  write_text(b, "1");
+  const FileStamps read{{a, file_stamp(a)}, {b, file_stamp(b)}, {late, file_stamp(late)}};
+  write_text(a, "22"); // while the scene is still being made of what was read
+  FileWatch watch({}, 0.01);
+  watch.watch({a, b, late}, read);
+  wait_for_change(watch);
+  EXPECT_EQ(watch.take_changes(), std::set<std::string>{a});
+  write_text(folder / "other", "x");
+  write_text(late, "1");
+  wait_for_change(watch);
+  EXPECT_EQ(watch.take_changes(), std::set<std::string>{late});
+  watch.watch({a, b}); // as they were last told of
+  write_text(b, "22");
+  watch.watch({a, b});
+  wait_for_change(watch);
+  EXPECT_EQ(watch.take_changes(), std::set<std::string>{b});
+  write_text(a, "333"); // by ourselves
+  watch.watch({a, b}, {{a, file_stamp(a)}});
+  write_text(b, "333");
+  wait_for_change(watch);
+  EXPECT_EQ(watch.take_changes(), std::set<std::string>{b});
   EXPECT_FALSE(watch.has_change()) << "told once";
 }
 

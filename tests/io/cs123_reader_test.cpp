@@ -77,7 +77,8 @@ TEST_F(Cs123Reader, TransformationsComposeInTheOrderListed) {
   auto nested =
       read(root("<translate x='10' y='0' z='0'/><object type='tree'><transblock><scale x='2' y='2' z='2'/>"
                 "<object type='primitive' name='sphere'/></transblock></object>"));
-  EXPECT_EQ(transform_point(nested.document.scene.instances[0].world_from_object, vec3(1)), vec3(12, 2, 2));
+  EXPECT_EQ(transform_point(nested.document.scene.instances[0].world_from_object, {1, -1, 1}),
+            vec3(12, 2, 2));
 }
 
 TEST_F(Cs123Reader, Meshes) {
