@@ -79,7 +79,9 @@ std::string instance_edit(const Instance& a, const Instance& b) {
     for (int c = 0; c < 3; ++c) moved_only &= a.world_from_object[c] == b.world_from_object[c];
     return moved_only ? "move" : "transform";
   }
-  return a.materials != b.materials ? "material" : "";
+  if (a.materials != b.materials) return "material";
+  if (a.shape.index() != b.shape.index()) return "shape";
+  return joined(changed_keys(shape_fields(a.shape), a.shape, b.shape));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // Undo and redo: Documents are cheap to copy, so every step keeps a whole one.
 
 #include "core/bounds.h"
+#include "io/file_stamp.h"
 #include "scene/document.h"
 
 #include <deque>
@@ -19,6 +20,7 @@ struct OpenScene {
   Document saved;   ///< as its file has it
   Bounds3 bounds;   ///< world space
   std::vector<std::string> warnings;
+  FileStamps files; ///< LoadedScene::files
 };
 
 /// One step of the history: all that an undo brings back.

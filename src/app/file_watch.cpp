@@ -16,65 +16,67 @@ FileWatch::~FileWatch() {
   thread_.join();
 }
 
-void FileWatch::watch(std::vector<std::string> files) {
+void FileWatch::watch(std::set<std::string> files, FileStamps known) {
   {
     std::lock_guard lock(mutex_);
+    // What was not taken yet stays, but for what has been read since.
+    std::erase_if(changed_,
+                  [&](const std::string& file) { return !files.contains(file) || known.contains(file); });
+    for (auto& [file, stamp] : known_) known.emplace(file, stamp); // not looked at yet
     files_ = std::move(files);
+    known_ = std::move(known);
     ++generation_;
-    changed_ = false;
   }
   ended_.notify_one();
 }
 
-bool FileWatch::take_change() {
+std::set<std::string> FileWatch::take_changes() {
   std::lock_guard lock(mutex_);
-  return std::exchange(changed_, false);
+  return std::exchange(changed_, {});
 }
 
 bool FileWatch::has_change() const {
   std::lock_guard lock(mutex_);
-  return changed_;
+  return !changed_.empty();
 }
 
-FileWatch::Stamps FileWatch::look(const std::vector<std::string>& files) {
-  Stamps stamps;
-  for (const std::string& file : files) {
-    std::error_code failed;
-    Stamp stamp;
-    stamp.written = std::filesystem::last_write_time(file, failed);
-    stamp.exists = !failed;
-    if (stamp.exists) stamp.size = std::filesystem::file_size(file, failed);
-    stamps.push_back(stamp);
-  }
+FileStamps FileWatch::look(const std::set<std::string>& files) {
+  FileStamps stamps;
+  for (const std::string& file : files) stamps.emplace(file, file_stamp(file));
   return stamps;
 }
 
 void FileWatch::run(double seconds) {
-  std::uint64_t known = 0; // generation that `base` belongs to
-  Stamps base, last;
+  FileStamps told, last; // what was last told of each file; how they were at the last look
   std::unique_lock lock(mutex_);
   while (!stopping_) {
-    const std::vector<std::string> files = files_;
+    const std::set<std::string> files = files_;
     const std::uint64_t generation = generation_;
     lock.unlock();
-    const Stamps now = look(files);
+    const auto began = std::chrono::steady_clock::now();
+    FileStamps now = look(files);
+    const std::chrono::duration<double> looked = std::chrono::steady_clock::now() - began;
     lock.lock();
-    bool news = false;
-    if (generation != known) {
-      known = generation;
-      base = now;
-    } else if (now != base && now == last && generation == generation_) {
-      base = now;
-      changed_ = news = true;
+    if (generation != generation_) continue; // others are to be watched
+    for (auto& [file, stamp] : std::exchange(known_, {})) told.insert_or_assign(file, stamp);
+    std::erase_if(told, [&](const auto& entry) { return !files.contains(entry.first); });
+    told.insert(now.begin(), now.end());
+    const bool news = now != told && now == last;
+    if (news) {
+      for (const auto& [file, stamp] : now)
+        if (stamp != told[file]) changed_.insert(file);
+      told = now;
     }
-    last = now;
+    last = std::move(now);
     if (news && wake_) {
       lock.unlock();
       wake_();
       lock.lock();
     }
-    ended_.wait_for(lock, std::chrono::duration<double>(seconds),
-                    [&] { return stopping_ || generation_ != known; });
+    // Thousands of files, or a slow disk, are looked at the more seldom.
+    constexpr double kShare = 0.05;
+    ended_.wait_for(lock, std::max(std::chrono::duration<double>(seconds), looked / kShare),
+                    [&] { return stopping_ || generation_ != generation; });
   }
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 // Tells when files change on the disk, by looking at them now and then on a thread of its own.
 
+#include "io/file_stamp.h"
+
 #include <condition_variable>
-#include <filesystem>
 #include <functional>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
-#include <vector>
 
 namespace candela {
 
@@ -19,31 +20,26 @@ public:
   FileWatch(const FileWatch&) = delete;
   FileWatch& operator=(const FileWatch&) = delete;
 
-  /// Watches these instead, as they are now.
-  void watch(std::vector<std::string> files);
+  /// Watches these instead: against what `known` says of them, else what was last told of them, else as they
+  /// are now.
+  void watch(std::set<std::string> files, FileStamps known = {});
 
-  /// Whether any of them was written, made or removed since, and then came to rest: a file that is still
-  /// being written would be read half. True once for each such change.
-  bool take_change();
+  /// Those that were written, made or removed since, and then came to rest: a file that is still being
+  /// written would be read half. Each change is told once.
+  std::set<std::string> take_changes();
   bool has_change() const;
 
 private:
-  struct Stamp {
-    bool exists = false;
-    std::filesystem::file_time_type written;
-    std::uintmax_t size = 0;
-    bool operator==(const Stamp&) const = default;
-  };
-  using Stamps = std::vector<Stamp>;
-  static Stamps look(const std::vector<std::string>& files);
+  static FileStamps look(const std::set<std::string>& files);
   void run(double seconds);
 
   std::function<void()> wake_;
   mutable std::mutex mutex_; // never held while files are looked at
   std::condition_variable ended_;
-  std::vector<std::string> files_;
-  std::uint64_t generation_ = 0; ///< of files_
-  bool changed_ = false;
+  std::set<std::string> files_;
+  FileStamps known_;
+  std::uint64_t generation_ = 0; ///< of files_ and known_
+  std::set<std::string> changed_;
   bool stopping_ = false;
   std::thread thread_;
 };

@@ -60,7 +60,18 @@ int run_info(const SceneOptions& options) {
 
   nlohmann::ordered_json out;
   out["scene"] = options.path;
+  out["files"] = nlohmann::ordered_json::array();
+  for (const auto& [file, stamp] : loaded.files) {
+    nlohmann::ordered_json entry = {{"path", file}};
+    if (!stamp.exists) entry["missing"] = true;
+    out["files"].push_back(std::move(entry));
+  }
   out["instances"] = desc.instances.size();
+  out["shapes"] = nlohmann::ordered_json::object();
+  for (const Instance& instance : desc.instances) {
+    auto& count = out["shapes"][std::string(shape_name(instance.shape))];
+    count = count.is_null() ? 1 : count.get<int>() + 1;
+  }
   out["meshes"] = meshes.size();
   out["triangles"] = {{"distinct", distinct}, {"placed", placed}};
   out["spheres"] = geometry.spheres().size();

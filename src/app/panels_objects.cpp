@@ -27,11 +27,25 @@ const FieldInfo kRotation{"rotation",
 const FieldInfo kScale{
     "scale", FieldType::point, -1e6, 1e6, "", "Factors along the object's own axes", Invalidates::scene};
 
-std::string shape_text(const Instance& instance) {
-  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape))
-    return fmt::format("mesh, {} triangles", (*mesh)->triangles.size());
-  if (std::holds_alternative<SphereShape>(instance.shape)) return "sphere";
-  return std::holds_alternative<RectangleShape>(instance.shape) ? "rectangle" : "disc";
+std::string shape_text(const Shape& shape) {
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
+    return fmt::format("{}, {} triangles", shape_name(shape), (*mesh)->triangles.size());
+  return std::string(shape_name(shape));
+}
+
+/// The values that a shape of this kind has. `home`: as it was loaded; null where that was another kind.
+void shape_values(Ui& ui, ViewerState& state, Shape& shape, Shape* home) {
+  for (const auto& row : shape_fields(shape)) {
+    FieldInfo limits = shape_limits(shape, row);
+    FieldContext context;
+    if (home != nullptr) context.initial = row.address(*home);
+    if (row.type ==
+        FieldType::real) { // a length has no natural end that a slider could have: 100 pixels double it
+      limits.logarithmic = false;
+      context.drag_speed = 0.01f * *static_cast<const float*>(row.address(shape));
+    }
+    state.edited |= ui.field(fmt::format("object.{}", row.key), limits, row.address(shape), context);
+  }
 }
 
 /// The angles as they were typed: those of the matrix are only one choice of many.
@@ -110,11 +124,16 @@ void objects_panel(Ui& ui, ViewerState& state) {
     return;
   }
   const auto index = static_cast<std::size_t>(chosen);
-  const auto& home = state.home.scene.instances;
+  Instance& instance = instances[index];
+  auto& homes = state.home.scene.instances;
+  Instance* home = homes.size() == instances.size() ? &homes[index] : nullptr;
+  const bool same_kind = home != nullptr && home->shape.index() == instance.shape.index();
   ImGui::PushID(chosen);
-  ui.readout("shape", shape_text(instances[index]));
-  transform_fields(ui, state, instances[index], home.size() == instances.size() ? &home[index] : nullptr);
-  material_choices(ui, state, instances[index]);
+  ui.readout("shape", shape_text(instance.shape));
+  ui.record(fmt::format("object.shape/{}", shape_name(instance.shape)));
+  shape_values(ui, state, instance.shape, same_kind ? &home->shape : nullptr);
+  transform_fields(ui, state, instance, home);
+  material_choices(ui, state, instance);
   ImGui::PopID();
 }
 

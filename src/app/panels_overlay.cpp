@@ -45,7 +45,7 @@ constexpr KeyHelp kWorkKeys[] = {
     {"M", "show or hide icons and outlines"},
     {"Ctrl+Z, Ctrl+Y", "undo, redo (or Ctrl+Shift+Z)"},
     {"Ctrl+B, Ctrl+Alt+B", "render a region, all again"},
-    {"K, L", "pause or go on, one sample more"},
+    {"K or Pause, L", "pause or go on, one sample more"},
     {"C, N, B", "compare; change the layout; flip"},
     {"F2", "the lab: Monte Carlo lessons"},
     {"Ctrl+S, Ctrl+Shift+S", "save the scene, under another name"},

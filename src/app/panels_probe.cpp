@@ -79,6 +79,7 @@ std::vector<Row> scene_rows(const ViewerState& state, const std::optional<Pick>&
       {"material", name_of(scene.materials, pick->material, "Material")},
       {"point", triple(pick->position)},
       {"normal", triple(pick->geometric_normal)},
+      {"uv", fmt::format("{}  {}", digits(pick->uv.x), digits(pick->uv.y))},
       {"distance", fmt::format("{}, {} along the view", digits(pick->distance), digits(pick->view_depth))}};
 }
 

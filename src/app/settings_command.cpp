@@ -55,7 +55,8 @@ ordered_json bound_json(const FieldInfo& row, double bound) {
   return bound;
 }
 
-/// Characters that would end a cell of a Markdown table or be taken for HTML.
+} // namespace
+
 std::string markdown_cell(std::string_view text) {
   std::string out;
   for (char c : text) {
@@ -64,8 +65,6 @@ std::string markdown_cell(std::string_view text) {
   }
   return out;
 }
-
-} // namespace
 
 std::string settings_text() {
   const Document defaults;

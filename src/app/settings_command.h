@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace candela {
 
@@ -11,5 +12,7 @@ int run_settings(bool json, bool markdown);
 std::string settings_text();
 std::string settings_json();
 std::string settings_markdown();
+/// The text with what would end a cell of a Markdown table or be taken for HTML escaped.
+std::string markdown_cell(std::string_view text);
 
 } // namespace candela

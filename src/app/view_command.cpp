@@ -18,6 +18,7 @@ int run_view(const SceneOptions& options, bool use_preferences) {
   LoadedScene loaded = load_scene(options);
   ViewerOptions viewer;
   viewer.document = std::move(loaded.document);
+  viewer.files = std::move(loaded.files);
   viewer.scene_path = options.path;
   viewer.threads = options.threads;
   viewer.reading = {options.allow_outside};           // holds for scenes opened later, too

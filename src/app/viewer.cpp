@@ -59,7 +59,8 @@ Viewer::Viewer(const Gl& gl, ViewerOptions options)
   text_zoom_ = preferences_.text_zoom;
   ui_.set_open_sections(preferences_.open_sections);
   const Bounds3 bounds = scene_bounds(options_.document.scene);
-  install_scene(std::move(options_.document), options_.scene_path, std::move(options_.warnings), bounds);
+  install_scene(std::move(options_.document), options_.scene_path, std::move(options_.warnings), bounds,
+                std::move(options_.files));
   history_.reset(edit_state());
   if (!options_.scene_path.empty()) remember_recent(options_.scene_path);
 }

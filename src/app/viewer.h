@@ -37,6 +37,7 @@ struct ViewerOptions {
   Document document;                             ///< shown first
   std::string scene_path;                        ///< where it came from; empty: built in
   std::vector<std::string> warnings;             ///< of reading it
+  FileStamps files;                              ///< LoadedScene::files
   ReadOptions reading;                           ///< of scenes that are opened later
   bool fit_film = true;                          ///< the film follows the window; else the document's size
   int threads = 0;                               ///< for rendering; 0: every core
@@ -159,9 +160,11 @@ private:
   void update_modified();
   void remember_recent(const std::string& path);
   void write_preferences_if_changed();
-  void light_with(std::shared_ptr<const Panorama> panorama);
+  void light_with(std::shared_ptr<const Panorama> panorama, const FileStamps& files);
   void install_scene(Document document, std::string path, std::vector<std::string> warnings,
-                     const Bounds3& bounds);
+                     const Bounds3& bounds, FileStamps files);
+  void watch_files(FileStamps known = {});
+  void read_panoramas_again(const std::set<std::string>& changed);
   void save_shown_picture();
 
   // viewer_compare.cpp
@@ -197,7 +200,7 @@ private:
   void serve_requests();
   void serve_view_requests();
   void keep_history();
-  void show_state(const EditState& edit);
+  void show_state(const EditState& edit, const FileStamps& read = {});
   void submit();
   EditState edit_state() const;
   void notify(std::string text);

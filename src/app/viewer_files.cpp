@@ -5,10 +5,12 @@
 #include "core/error.h"
 #include "io/image_file.h"
 #include "io/panorama_reader.h"
+#include "io/path_policy.h"
 #include "io/picture_state.h"
 #include "io/scene_builder.h"
 #include "io/scene_export.h"
 #include "io/text_file.h"
+#include "scene/scene_files.h"
 
 #include <fmt/format.h>
 
@@ -23,18 +25,6 @@ namespace {
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code failed;
   return a == b || fs::equivalent(a, b, failed);
-}
-
-/// The scene's file and all that it was made from.
-std::vector<std::string> files_of(const OpenScene& scene) {
-  std::set<std::string> files;
-  for (const Instance& instance : scene.saved.scene.instances)
-    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape))
-      files.insert((*mesh)->source);
-  for (const auto& texture : scene.saved.scene.textures) files.insert(texture->source);
-  if (!scene.path.empty()) files.insert(scene.path);
-  files.erase("");
-  return {files.begin(), files.end()};
 }
 
 std::string opened_text(const char* verb, const std::string& path, std::size_t warnings) {
@@ -56,11 +46,12 @@ std::shared_ptr<const Panorama> panorama_without_scene(const std::string& path,
 
 } // namespace
 
-void Viewer::light_with(std::shared_ptr<const Panorama> panorama) {
+void Viewer::light_with(std::shared_ptr<const Panorama> panorama, const FileStamps& files) {
   const auto selected = static_cast<std::size_t>(std::max(state_.selected_light, 0));
   state_.selected_light =
       static_cast<int>(set_environment(state_.document.scene, std::move(panorama), selected));
   state_.edited = true;
+  watch_files(files);
 }
 
 void Viewer::open_scene(const std::string& path, bool reload) {
@@ -76,11 +67,12 @@ void Viewer::open_scene(const std::string& path, bool reload) {
   reader_.post([this, path, request, reload, options]() -> TaskThread::Completion {
     std::string problem;
     try {
+      const FileStamps stamps{{path, file_stamp(path)}};
       if (auto panorama = panorama_without_scene(path, options.progress))
-        return [this, path, request, panorama] {
+        return [this, path, request, panorama, stamps] {
           if (request != open_requests_) return;
           state_.reading = false;
-          light_with(panorama);
+          light_with(panorama, stamps);
           notify(fmt::format("{} lights the scene: see Lights", path));
         };
       LoadedScene loaded = read_scene(path, options);
@@ -114,7 +106,7 @@ void Viewer::finish_opening(const std::string& path, LoadedScene& loaded, const 
   const Selection selection = state_.selection;
   const int material = state_.selected_material, light = state_.selected_light;
   Camera seen = state_.document.scene.camera;
-  install_scene(std::move(loaded.document), path, std::move(warnings), bounds);
+  install_scene(std::move(loaded.document), path, std::move(warnings), bounds, std::move(loaded.files));
   if (reload) { // what is on the screen stays where it is
     state_.document.scene.camera = seen;
     state_.selection = checked_selection(state_.document.scene, selection);
@@ -127,21 +119,21 @@ void Viewer::finish_opening(const std::string& path, LoadedScene& loaded, const 
 }
 
 void Viewer::install_scene(Document document, std::string path, std::vector<std::string> warnings,
-                           const Bounds3& bounds) {
+                           const Bounds3& bounds, FileStamps files) {
   auto scene = std::make_shared<OpenScene>(
-      OpenScene{std::move(path), document, document, bounds, std::move(warnings)});
-  show_state({std::move(document), state_.fit_film, std::move(scene)});
+      OpenScene{std::move(path), document, document, bounds, std::move(warnings), std::move(files)});
+  const FileStamps read = scene->files;
+  show_state({std::move(document), state_.fit_film, std::move(scene)}, read);
   state_.selected_material = state_.selected_light = 0;
   state_.selection = {};
   state_.error.clear();
   state_.question = Question::none;
 }
 
-void Viewer::show_state(const EditState& edit) {
+void Viewer::show_state(const EditState& edit, const FileStamps& read) {
   state_.document = edit.document;
   state_.fit_film = edit.fit_film;
-  if (scene_ != edit.scene) watch_.watch(files_of(*edit.scene));
-  scene_ = edit.scene;
+  if (std::exchange(scene_, edit.scene) != edit.scene) watch_files(read);
   state_.home = scene_->home;
   state_.scene_path = scene_->path;
   state_.warnings = scene_->warnings;
@@ -170,8 +162,52 @@ void Viewer::cancel_building() {
   notify("Gave up building: redo takes it up again");
 }
 
+/// The scene's files, and those of panoramas that were dropped on it since. `known`: as they were when they
+/// were read or written just now.
+void Viewer::watch_files(FileStamps known) {
+  std::set<std::string> files = source_files(state_.document.scene);
+  for (const auto& [file, stamp] : scene_->files) files.insert(file);
+  if (!scene_->path.empty())
+    files.insert(scene_->path); // a link, perhaps, which may be made to lead elsewhere
+  watch_.watch(std::move(files), std::move(known));
+}
+
+/// Panoramas that the scene's files do not have yet: they are replaced where they shine, with all edits kept.
+void Viewer::read_panoramas_again(const std::set<std::string>& changed) {
+  std::set<std::shared_ptr<const Panorama>> old;
+  for (const LightDesc& light : state_.document.scene.lights)
+    if (light.panorama && std::ranges::any_of(light.panorama->sources, [&](const std::string& source) {
+          return changed.contains(source);
+        }))
+      old.insert(light.panorama);
+  for (const auto& panorama : old)
+    reader_.post([this, panorama]() -> TaskThread::Completion {
+      try {
+        WarningList corrections; // as when it was dropped
+        auto fresh = read_panorama(panorama->sources, corrections);
+        return [this, panorama, fresh] {
+          for (LightDesc& light : state_.document.scene.lights)
+            if (light.panorama == panorama) light.panorama = fresh, state_.edited = true;
+          notify(fmt::format("{} was read again", panorama->name));
+        };
+      } catch (const std::exception& error) {
+        return [this, problem = std::string(error.what())] { state_.error = problem; };
+      }
+    });
+}
+
 void Viewer::look_for_changes() {
-  if (!watch_.take_change() || state_.reading || scene_->path.empty()) return;
+  if (state_.reading) return;
+  const std::set<std::string> changed = watch_.take_changes();
+  if (changed.empty()) return;
+  auto is_the_scenes = [&](const std::string& file) {
+    return file == scene_->path || scene_->files.contains(file);
+  };
+  if (std::ranges::none_of(changed, is_the_scenes)) {
+    read_panoramas_again(changed);
+    return;
+  }
+  if (scene_->path.empty()) return;
   std::error_code failed;
   if (!fs::exists(scene_->path, failed)) return; // an editor is between removing and renaming
   if (state_.modified)
@@ -223,11 +259,17 @@ void Viewer::save_scene_to(const std::string& path) {
   }
   writer_.post([this, path, document = std::move(document), scene = scene_]() -> TaskThread::Completion {
     try {
-      export_candela_json(document, path); // pictures from elsewhere come along
-      return [this, path, document, scene] {
+      FileStamps written;
+      for (const ExportedFile& copied : export_candela_json(document, path)) // pictures from elsewhere
+        written.emplace(canonical_path(copied.to), file_stamp(copied.to));
+      for (const std::string& file : {path, canonical_path(path)}) written.emplace(file, file_stamp(file));
+      return [this, path, document, scene, written] {
+        scene->files.erase(canonical_path(scene->path));
         scene->path = path;
         scene->saved = document;
-        if (scene == scene_) state_.scene_path = path, watch_.watch(files_of(*scene_));
+        for (const std::string& file : source_files(document.scene)) scene->files.try_emplace(file);
+        for (const auto& [file, stamp] : written) scene->files[file] = stamp;
+        if (scene == scene_) state_.scene_path = path, watch_files(written);
         remember_recent(path);
         update_modified();
         notify(fmt::format("Saved {}", path));

@@ -33,7 +33,7 @@ struct Cs123Shape {
 std::optional<Cs123Shape> cs123_shape(std::string_view kind) {
   const dmat4 y_from_z = rotation({1, 0, 0}, -90);
   const dmat4 half_down = glm::translate(dmat4(1), {0, -0.5, 0});
-  if (kind == "sphere") return Cs123Shape{SphereShape{0.5f}};
+  if (kind == "sphere") return Cs123Shape{SphereShape{0.5f}, y_from_z}; // so stand its textures
   if (kind == "cube") return Cs123Shape{CubeShape{}, glm::scale(dmat4(1), dvec3(0.5))};
   if (kind == "cylinder") return Cs123Shape{CylinderShape{0.5f, 1, true}, half_down * y_from_z};
   if (kind == "cone") return Cs123Shape{ConeShape{0.5f, 1, true}, half_down * y_from_z};

@@ -37,6 +37,8 @@ bool is_file(const fs::path& path) {
 
 } // namespace
 
+std::string canonical_path(const std::string& path) { return canonical_or_same(path).string(); }
+
 std::optional<std::string> path_below(const std::string& folder, const std::string& file) {
   fs::path root = canonical_or_same(folder), found = canonical_or_same(file);
   if (file.empty() || !is_file(found) || !is_inside(found, root)) return std::nullopt;
@@ -64,6 +66,8 @@ std::optional<FoundFile> PathPolicy::find(const std::string& reference, const st
     throw input_error(where, element,
                       fmt::format("'{}' lies outside the scene's folder tree ({})", reference, root_),
                       "move it there, or allow it with --allow-outside");
+  if (!asked_->contains(canonical.string()))
+    asked_->emplace(canonical.string(), file_stamp(canonical.string()));
   if (!is_file(canonical)) return std::nullopt;
   // The short form leads elsewhere if it drops a ".." behind a link; files beside this one start from it.
   fs::path shown = full();

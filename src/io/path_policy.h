@@ -3,7 +3,9 @@
 // not to the rest of the disk.
 
 #include "core/error.h"
+#include "io/file_stamp.h"
 
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,6 +19,9 @@ struct FoundFile {
   std::string shown;
   std::string canonical;
 };
+
+/// Absolute and without symbolic links; as far as that can be told, for what does not exist.
+std::string canonical_path(const std::string& path);
 
 /// The folder part of a path, "." for a bare name.
 std::string folder_of(const std::string& path);
@@ -43,10 +48,15 @@ public:
   FoundFile require(const std::string& reference, const std::string& base_folder, const Location& where,
                     std::string_view element) const;
 
+  /// All files that it was asked for and that may be named, whether they exist or not, by their canonical
+  /// paths, as they were then. Copies of a policy share it.
+  const FileStamps& asked() const { return *asked_; }
+
 private:
   std::string root_; ///< canonical
   bool allow_outside_;
   std::set<std::string> admitted_;
+  std::shared_ptr<FileStamps> asked_ = std::make_shared<FileStamps>();
 };
 
 } // namespace candela

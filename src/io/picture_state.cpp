@@ -6,6 +6,7 @@
 #include "io/image_codec.h"
 #include "io/json_fields.h"
 #include "io/text_file.h"
+#include "scene/scene_files.h"
 
 #include <fmt/format.h>
 
@@ -34,24 +35,11 @@ std::string content_hash(ByteView bytes) {
   return fmt::format("{:016x}", hash_combine(hash, word));
 }
 
-/// The files that the scene's JSON names.
-std::set<std::string> sources(const SceneDesc& scene) {
-  std::set<std::string> files;
-  for (const Instance& instance : scene.instances)
-    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape))
-      files.insert((*mesh)->source);
-  for (const auto& texture : scene.textures) files.insert(texture->source);
-  for (const LightDesc& light : scene.lights)
-    if (light.panorama) files.insert(light.panorama->sources.begin(), light.panorama->sources.end());
-  files.erase("");
-  return files;
-}
-
 std::string file_list(const SceneDesc& scene, const std::string& folder) {
   std::error_code failed;
   const fs::path base = fs::weakly_canonical(fs::absolute(folder), failed);
   std::string list;
-  for (const std::string& source : sources(scene)) {
+  for (const std::string& source : source_files(scene)) {
     const fs::path file = fs::weakly_canonical(fs::absolute(source), failed);
     if (failed || !fs::is_regular_file(file, failed)) continue;
     const Bytes bytes = read_file_bytes(file.string(), "scene");
@@ -157,6 +145,7 @@ LoadedScene read_picture_state(const std::string& path, const ReadOptions& optio
   if (auto files = texts.find(kFiles)) check_files(*files, path, policy, warnings);
   LoadedScene loaded;
   loaded.document = parse_candela_json(std::move(*scene), path, policy, warnings);
+  loaded.files = policy.asked();
   if (auto crop = texts.find(kCrop)) loaded.crop = parse_crop(*crop, loaded.document.settings.film, path);
   return loaded;
 }

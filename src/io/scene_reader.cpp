@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 namespace candela {
 
 namespace {
@@ -38,9 +36,8 @@ Document read_obj_scene(const FoundFile& file, const PathPolicy& policy, Warning
 }
 
 /// Reads any format but .ini.
-Document read_by_ending(const FoundFile& file, const ReadOptions& options, const Location& where,
+Document read_by_ending(const FoundFile& file, const PathPolicy& policy, const Location& where,
                         WarningList& warnings) {
-  PathPolicy policy(folder_of(file.shown), options.allow_outside);
   std::string ending = lower_ending(file.shown);
   if (ending == ".json") return read_candela_json(file, policy, warnings);
   if (ending == ".obj") return read_obj_scene(file, policy, warnings);
@@ -49,27 +46,35 @@ Document read_by_ending(const FoundFile& file, const ReadOptions& options, const
                     "give a .json, .obj, .xml or .ini file, or a .png or .exr that Candela saved");
 }
 
+/// A scene of its own, or the one of a job.
+void read_document(const FoundFile& file, const ReadOptions& options, const Location& where,
+                   WarningList& warnings, LoadedScene& loaded) {
+  const PathPolicy policy(folder_of(file.shown), options.allow_outside);
+  const FileStamp stamp = file_stamp(file.canonical);
+  loaded.document = read_by_ending(file, policy, where, warnings);
+  loaded.files = policy.asked();
+  loaded.files[file.canonical] = stamp;
+}
+
 } // namespace
 
 LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
   WarningList warnings(options.progress);
   warnings.check_stop();
   LoadedScene loaded;
+  const FileStamp stamp = file_stamp(path);
   if (lower_ending(path) == ".ini") {
     IniJob job = read_ini_job(path, options.allow_outside);
-    loaded.document = read_by_ending(job.scene, options, {path}, warnings);
+    read_document(job.scene, options, {path}, warnings, loaded);
     loaded.document.settings = job.settings;
     if (!job.output.empty()) loaded.output_files.push_back(job.output);
   } else if (std::string ending = lower_ending(path); ending == ".png" || ending == ".exr") {
     loaded = read_picture_state(path, options, warnings);
   } else {
     // The scene itself may lie anywhere: the user has named it. Opening it says what is wrong with it.
-    std::error_code failed;
-    std::filesystem::path canonical =
-        std::filesystem::weakly_canonical(std::filesystem::absolute(path), failed);
-    FoundFile file{path, failed ? path : canonical.string()};
-    loaded.document = read_by_ending(file, options, {path}, warnings);
+    read_document({path, canonical_path(path)}, options, {path}, warnings, loaded);
   }
+  loaded.files[canonical_path(path)] = stamp;
   const SceneDesc& scene = loaded.document.scene;
   if (!has_light(scene)) warnings.add({path}, "nothing in the scene shines: the picture will be black");
   loaded.warnings = warnings.warnings();

@@ -29,6 +29,10 @@ struct LoadedScene {
   std::vector<Warning> warnings;
   std::vector<std::string> output_files; ///< what an .ini job names
   std::optional<PictureCrop> crop;       ///< the part of the film that a picture shows
+  /// Every file that decides what the scene is: its own, those that it names and those that they name
+  /// (material libraries, textures, faces), the missing ones, too; as they were before they were read.
+  /// Whoever watches, packs or lists a scene's files takes this list.
+  FileStamps files;
 };
 
 /// Reads a scene by the ending of its name, in either case:

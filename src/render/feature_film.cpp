@@ -46,7 +46,9 @@ public:
       Surface surface = scene_.geometry().surface(ray, hit);
       const SurfaceMaterial& material = scene_.material(surface.material);
       vec3 wo = -ray.direction;
-      Bsdf bsdf = material.diffuse_texture != nullptr ? evaluate_bsdf(material, surface) : material.bsdf;
+      Bsdf bsdf = material.diffuse_texture != nullptr
+                      ? evaluate_bsdf(material, scene_.geometry().uv(ray, hit))
+                      : material.bsdf;
       Basis frame = Basis::from_normal(surface.shading_normal);
       vec3 wo_local = frame.to_local(wo);
       // Lamps are told from what is around them by a reflectance in [0, 1], however bright they are.

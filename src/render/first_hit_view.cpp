@@ -31,15 +31,16 @@ vec3 first_hit_value(const RenderScene& scene, Ray ray, bool met, Hit hit, vec3 
   sampler.set_bounce(1);
   if (!look_through(scene, ray, sampler, met, hit, counts)) return vec3(0);
   Surface surface = scene.geometry().surface(ray, hit);
+  auto uv = [&] { return scene.geometry().uv(ray, hit); };
   switch (view) {
   case View::albedo: {
     const SurfaceMaterial& material = scene.material(surface.material);
-    return bsdf_albedo(material.diffuse_texture ? evaluate_bsdf(material, surface) : material.bsdf);
+    return bsdf_albedo(material.diffuse_texture ? evaluate_bsdf(material, uv()) : material.bsdf);
   }
   case View::normal: return towards_viewer(surface.shading_normal, surface, ray);
   case View::geometric_normal: return towards_viewer(surface.geometric_normal, surface, ray);
   case View::depth: return vec3(glm::dot(surface.position - origin, forward));
-  case View::uv: return vec3(surface.uv - glm::floor(surface.uv), 0);
+  case View::uv: return vec3(uv() - glm::floor(uv()), 0);
   case View::material: return index_color(surface.material);
   default: return vec3(0);
   }

@@ -1,14 +1,15 @@
 #include "render/geometry.h"
 
-#include "core/basis.h"
+#include "render/sphere_uv.h"
 #include "render/triangle_point.h"
 
 namespace candela {
 
 namespace {
 
-vec2 interpolate(const std::vector<vec2>& values, uvec3 t, float u, float v) {
-  return (1 - u - v) * values[t.x] + u * values[t.y] + v * values[t.z];
+template <class T>
+T interpolate(T a, T b, T c, float u, float v) {
+  return (1 - u - v) * a + u * b + v * c;
 }
 
 } // namespace
@@ -43,7 +44,6 @@ Surface Geometry::surface(const Ray& ray, const Hit& hit) const {
     s.position_error = p.error;
     s.geometric_normal = p.normal;
     s.shading_normal = shading_normal(smooth, p.normal);
-    s.uv = set.uvs.empty() ? vec2(hit.u, hit.v) : interpolate(set.uvs, t, hit.u, hit.v);
     return s;
   }
   if (hit.kind == PrimitiveKind::sphere) {
@@ -52,8 +52,6 @@ Surface Geometry::surface(const Ray& ray, const Hit& hit) const {
     vec3 offset = s.geometric_normal * sphere.radius; // on the sphere again, whatever t had of error
     s.position = sphere.center + offset;
     s.position_error = gamma_bound(6) * (glm::abs(sphere.center) + glm::abs(offset));
-    s.uv = vec2(std::atan2(s.geometric_normal.y, s.geometric_normal.x) * (0.5f * kInvPi) + 0.5f,
-                std::acos(glm::clamp(s.geometric_normal.z, -1.0f, 1.0f)) * kInvPi);
     s.material = sphere_materials_[hit.primitive];
     s.emitter = sphere_emitter(hit.primitive);
   } else {
@@ -62,14 +60,38 @@ Surface Geometry::surface(const Ray& ray, const Hit& hit) const {
     vec3 p = ray.at(hit.t);
     s.position = p - disc.normal * glm::dot(p - disc.center, disc.normal); // into the plane
     s.position_error = gamma_bound(8) * (glm::abs(s.position) + glm::abs(disc.center) + disc.radius);
-    Basis frame = Basis::from_normal(disc.normal);
-    vec3 local = frame.to_local(s.position - disc.center) / disc.radius;
-    s.uv = 0.5f * vec2(local) + 0.5f;
     s.material = disc_materials_[hit.primitive];
     s.emitter = disc_emitter(hit.primitive);
   }
   s.shading_normal = s.geometric_normal;
   return s;
+}
+
+bool Geometry::is_ellipsoid(std::uint32_t world_triangle) const {
+  auto next = std::ranges::upper_bound(ellipsoids_, world_triangle, {}, &TriangleRange::begin);
+  return next != ellipsoids_.begin() && world_triangle < std::prev(next)->end;
+}
+
+vec2 Geometry::uv(const Ray& ray, const Hit& hit) const {
+  // Points are taken relative to the centre before they are far from the origin: both ends of the ray's way
+  // are exact, their sum is not.
+  auto from = [&](vec3 center) { return (ray.origin - center) + hit.t * ray.direction; };
+  if (hit.kind == PrimitiveKind::sphere)
+    return sphere_uv(sphere_from_world_[hit.primitive] * from(spheres_[hit.primitive].center));
+  if (hit.kind == PrimitiveKind::disc) {
+    const vec3 p = from(discs_[hit.primitive].center);
+    const DiscAxes& axes = disc_axes_[hit.primitive];
+    return 0.5f * vec2(glm::dot(p, axes.x), glm::dot(p, axes.y)) + 0.5f;
+  }
+  const bool shared = hit.instance != kNoInstance;
+  const TriangleSet& set = shared ? objects_[placed_[hit.instance].object]->set : world_;
+  if (set.uvs.empty()) return vec2(0);
+  const uvec3 t = set.triangles[hit.primitive];
+  const vec2 a = set.uvs[t.x], b = set.uvs[t.y], c = set.uvs[t.z];
+  if (!shared && is_ellipsoid(hit.primitive)) // not linear in them: the same as on a sphere
+    return sphere_uv(
+        interpolate(sphere_direction(a), sphere_direction(b), sphere_direction(c), hit.u, hit.v));
+  return interpolate(a, b, c, hit.u, hit.v);
 }
 
 std::uint32_t Geometry::material_of(const Hit& hit) const {

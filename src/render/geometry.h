@@ -14,9 +14,8 @@ struct Surface {
   vec3 position_error{0};         ///< absolute bound per axis
   vec3 geometric_normal{0, 0, 1}; ///< unit; to the outside of spheres, by the winding of triangles
   vec3 shading_normal{0, 0, 1};   ///< unit, on the side of geometric_normal
-  vec2 uv{0};
-  std::uint32_t material = 0; ///< index into SceneDesc::materials
-  std::uint64_t emitter = 0;  ///< number among all primitives, see Geometry::emitter_count
+  std::uint32_t material = 0;     ///< index into SceneDesc::materials
+  std::uint64_t emitter = 0;      ///< number among all primitives, see Geometry::emitter_count
 };
 
 /// Triangles in world space (small meshes, rectangles) or in the space of an object.
@@ -67,6 +66,9 @@ public:
   const Accel& accel() const { return accel_; }
   /// Fills in the rest of what is known about a hit of `ray`.
   Surface surface(const Ray& ray, const Hit& hit) const;
+  /// Texture coordinates of a hit of `ray`, in the shape's own space: they go wherever its transform takes
+  /// it. (0, 0) on meshes that have none. Apart from the rest, which most surfaces are content with.
+  vec2 uv(const Ray& ray, const Hit& hit) const;
   /// Material index of a hit, without the rest: what opacity needs.
   std::uint32_t material_of(const Hit& hit) const;
   /// Index into the instances that were built from.
@@ -102,12 +104,23 @@ public:
 
 private:
   friend class GeometryBuilder;
+  struct DiscAxes { ///< where its x and y lie in the world, divided by the square of its radius
+    vec3 x, y;
+  };
+  struct TriangleRange {
+    std::uint32_t begin, end;
+  };
+  bool is_ellipsoid(std::uint32_t world_triangle) const;
+
   TriangleSet world_;
   std::vector<std::uint32_t> first_triangle_of_; ///< sorted, parallel to triangle_instances_
   std::vector<std::uint32_t> triangle_instances_;
   std::vector<SphereGeometry> spheres_;
   std::vector<DiscGeometry> discs_;
   std::vector<std::uint32_t> sphere_materials_, disc_materials_, sphere_instances_, disc_instances_;
+  std::vector<mat3> sphere_from_world_;   ///< turns (and mirrors) directions, parallel to spheres_
+  std::vector<DiscAxes> disc_axes_;       ///< parallel to discs_
+  std::vector<TriangleRange> ellipsoids_; ///< spheres that are world triangles, sorted
   std::vector<RectangleGeometry> rectangles_;
   Objects objects_; ///< accel_ refers to theirs
   std::vector<Placed> placed_;

@@ -4,6 +4,7 @@
 
 #include "render/geometry.h"
 #include "render/shape_mesh.h"
+#include "render/sphere_uv.h"
 
 #include <map>
 #include <tuple>
@@ -32,7 +33,7 @@ Mesh tessellated_sphere(float radius) {
       vec3 n(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
       mesh.positions.push_back(n * radius);
       mesh.normals.push_back(n);
-      mesh.uvs.emplace_back(u, v);
+      mesh.uvs.push_back(sphere_uv(n));
     }
   for (unsigned i = 0; i < kRings; ++i)
     for (unsigned j = 0; j < kSegments; ++j) {
@@ -164,7 +165,7 @@ private:
       if (is_similarity(instance.world_from_object))
         add_sphere(sphere->radius, index);
       else
-        bake(tessellated_sphere(sphere->radius), instance.world_from_object, index);
+        bake_sphere(sphere->radius, index);
     } else if (std::holds_alternative<RectangleShape>(instance.shape)) {
       add_rectangle(index);
     } else {
@@ -226,6 +227,13 @@ private:
     }
   }
 
+  void bake_sphere(float radius, std::uint32_t index) {
+    const std::size_t first = g_->world_.triangles.size();
+    bake(tessellated_sphere(radius), instances_[index].world_from_object, index);
+    g_->ellipsoids_.push_back(
+        {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(g_->world_.triangles.size())});
+  }
+
   /// The object that a mesh is.
   std::shared_ptr<const Geometry::Object> object_of(const std::shared_ptr<const Mesh>& mesh) {
     if (const auto known = known_objects_.find(mesh.get()); known != known_objects_.end())
@@ -256,6 +264,7 @@ private:
   void add_sphere(float radius, std::uint32_t index) {
     const mat4& m = instances_[index].world_from_object;
     g_->spheres_.push_back({vec3(m[3]), radius * glm::length(vec3(m[0]))});
+    g_->sphere_from_world_.push_back(glm::transpose(mat3(m)) / glm::length(vec3(m[0])));
     g_->sphere_materials_.push_back(static_cast<std::uint32_t>(instances_[index].materials[0]));
     g_->sphere_instances_.push_back(index);
   }
@@ -266,6 +275,7 @@ private:
     vec3 normal = glm::normalize(glm::cross(x, y));
     if (glm::dot(normal, vec3(m[2])) < 0) normal = -normal; // the image of +z, also of a mirroring transform
     g_->discs_.push_back({vec3(m[3]), glm::length(x), normal});
+    g_->disc_axes_.push_back({x / length_squared(x), y / length_squared(y)});
     g_->disc_materials_.push_back(static_cast<std::uint32_t>(instances_[index].materials[0]));
     g_->disc_instances_.push_back(index);
   }

@@ -27,6 +27,7 @@ std::optional<Pick> pick(const RenderScene& scene, const Document& document, vec
                                                                              : surface.geometric_normal;
   p.distance = glm::length(surface.position - ray.origin);
   p.view_depth = glm::dot(surface.position - ray.origin, camera.forward());
+  p.uv = scene.geometry().uv(ray, *hit);
   p.instance = static_cast<int>(scene.geometry().instance_of(*hit));
   p.material = static_cast<int>(surface.material);
   return p;

@@ -15,6 +15,7 @@ struct Pick {
   vec3 geometric_normal{0, 0, 1}; ///< world space, unit, on the side of the camera
   float distance = 0;             ///< from where the camera's ray begins
   float view_depth = 0;           ///< distance along the view axis: what focus_distance means
+  vec2 uv{0};                     ///< texture coordinates, as View::uv shows them but for their whole part
   int instance = -1;              ///< index into SceneDesc::instances
   int material = -1;              ///< index into SceneDesc::materials
 };

@@ -238,9 +238,9 @@ std::size_t RenderScene::memory_bytes() const {
   return bytes;
 }
 
-Bsdf evaluate_bsdf(const SurfaceMaterial& material, const Surface& surface) {
+Bsdf evaluate_bsdf(const SurfaceMaterial& material, vec2 uv) {
   Bsdf bsdf = material.bsdf;
-  vec3 texel = lookup_bilinear(*material.diffuse_texture, surface.uv);
+  vec3 texel = lookup_bilinear(*material.diffuse_texture, uv);
   if (auto* d = std::get_if<Diffuse>(&bsdf))
     d->reflectance *= texel;
   else if (auto* p = std::get_if<Phong>(&bsdf))

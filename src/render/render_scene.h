@@ -84,7 +84,7 @@ private:
 /// The material's BSDF, without its texture.
 Bsdf make_bsdf(const Material& material);
 
-/// The BSDF at a surface point: its material's, with the texture looked up.
-Bsdf evaluate_bsdf(const SurfaceMaterial& material, const Surface& surface);
+/// The BSDF of a material that has a texture, with it looked up at uv.
+Bsdf evaluate_bsdf(const SurfaceMaterial& material, vec2 uv);
 
 } // namespace candela

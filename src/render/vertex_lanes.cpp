@@ -77,7 +77,8 @@ void VertexLanes::meet(const RenderScene& scene, std::span<const Ray* const> ray
     position_error.set(i, s.position_error);
     geometric_normal.set(i, s.geometric_normal);
     normal.set(i, s.shading_normal);
-    if (material[i]->diffuse_texture != nullptr) textured[i] = evaluate_bsdf(*material[i], s);
+    if (material[i]->diffuse_texture != nullptr)
+      textured[i] = evaluate_bsdf(*material[i], geometry.uv(*rays[i], hits[i]));
   }
   set_frames(wo, *this);
   for (std::size_t i = 0; i < count; ++i) {

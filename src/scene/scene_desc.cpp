@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -278,6 +279,29 @@ std::string shape_problem(const Shape& shape) {
   if (torus != nullptr && !(torus->minor_radius < torus->radius))
     return fmt::format("minor_radius: {} is not below the radius {}", torus->minor_radius, torus->radius);
   return {};
+}
+
+FieldInfo shape_limits(const Shape& shape, const Field<Shape>& row) {
+  constexpr float kSmallestLength = 1e-6f;
+  FieldInfo limits = row;
+  if (row.type != FieldType::real) return limits;
+  const float value = *static_cast<const float*>(row.address(const_cast<Shape&>(shape)));
+  float lo = std::min(kSmallestLength, value), hi = std::max(kMaxCoordinate, value);
+  if (const auto* torus = std::get_if<TorusShape>(&shape)) {
+    if (row.key == "minor_radius")
+      hi = std::nextafter(torus->radius, 0.0f);
+    else
+      lo = std::nextafter(torus->minor_radius, kInfinity);
+  }
+  auto shown = [](float x) { // 0.3, not 0.30000001192092896
+    const std::string text = fmt::format("{}", x);
+    double decimal = 0;
+    std::from_chars(text.data(), text.data() + text.size(), decimal);
+    return decimal;
+  };
+  limits.minimum = shown(lo);
+  limits.maximum = shown(hi);
+  return limits;
 }
 
 } // namespace candela

@@ -174,6 +174,8 @@ std::optional<Shape> shape_of_name(std::string_view name);
 std::span<const Field<Shape>> shape_fields(const Shape& shape);
 /// What the rows cannot say: "minor_radius: …"; empty where all is well.
 std::string shape_problem(const Shape& shape);
+/// The row with limits that leave no shape_problem, as the shape's other values are: for hands that edit it.
+FieldInfo shape_limits(const Shape& shape, const Field<Shape>& row);
 
 /// Whether a material (light) of this type looks at the field: panels show only these.
 bool material_uses(MaterialType type, std::string_view key);

@@ -1,5 +1,7 @@
 #include "scene_files.h"
 
+#include <fmt/format.h>
+
 #include <numbers>
 
 namespace candela {
@@ -33,8 +35,10 @@ struct Cs123Reader : ::testing::Test {
   static std::string sphere(const std::string& transformations) {
     return root(transformations + "<object type=\"primitive\" name=\"sphere\"/>");
   }
+  /// Where the point of a primitive goes, whose axis is y, while that of our shapes is z.
   vec3 transformed(const std::string& transformations, vec3 p) {
-    return transform_point(read(sphere(transformations)).document.scene.instances.at(0).world_from_object, p);
+    return transform_point(read(sphere(transformations)).document.scene.instances.at(0).world_from_object,
+                           {p.x, -p.z, p.y});
   }
   Material own(const std::string& inside, const std::string& before = "") {
     return read(before + root("<object type=\"primitive\" name=\"sphere\">" + inside + "</object>"))
@@ -73,7 +77,8 @@ TEST_F(Cs123Reader, TransformationsComposeInTheOrderListed) {
   auto nested =
       read(root("<translate x='10' y='0' z='0'/><object type='tree'><transblock><scale x='2' y='2' z='2'/>"
                 "<object type='primitive' name='sphere'/></transblock></object>"));
-  EXPECT_EQ(transform_point(nested.document.scene.instances[0].world_from_object, vec3(1)), vec3(12, 2, 2));
+  EXPECT_EQ(transform_point(nested.document.scene.instances[0].world_from_object, {1, -1, 1}),
+            vec3(12, 2, 2));
 }
 
 TEST_F(Cs123Reader, Meshes) {
@@ -191,6 +196,13 @@ TEST_F(Cs123Reader, PrimitivesFillTheUnitCube) {
     float height = std::string(kind) == "torus" ? 0.125f : 0.5f;
     EXPECT_LT(glm::length(box.lo - vec3(4.5f, -height, -0.5f)), 1e-6f);
     EXPECT_LT(glm::length(box.hi - vec3(5.5f, height, 0.5f)), 1e-6f);
+  }
+  for (const char* kind : {"cylinder", "cone", "sphere", "torus"}) {
+    auto round = read(root(fmt::format("<object type='primitive' name='{}'/>", kind)));
+    const mat4& m = round.document.scene.instances[0].world_from_object;
+    EXPECT_EQ(transform_vector(m, {0, 0, 1}), vec3(0, 1, 0))
+        << kind << ": the axis, and so its textures, is y";
+    EXPECT_EQ(transform_vector(m, {0, -1, 0}), vec3(0, 0, 1)) << kind << ": the middle of them faces +z";
   }
   auto cone = read(root("<object type='primitive' name='cone'/>"));
   vec3 apex = transform_point(cone.document.scene.instances[0].world_from_object, {0, 0, 1});
