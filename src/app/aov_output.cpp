@@ -45,7 +45,7 @@ std::string aov_path(const std::string& output, const std::string& name) {
 
 std::vector<std::string> write_aovs(const std::vector<Aov>& aovs, const std::vector<std::string>& outputs,
                                     const Document& document, const OfflineResult& rendered,
-                                    const OfflineOptions& options) {
+                                    const OfflineOptions& options, OutputWriter& writer) {
   std::vector<std::string> paths;
   for (const Aov& aov : aovs) {
     ViewPicture picture;
@@ -53,11 +53,12 @@ std::vector<std::string> write_aovs(const std::vector<Aov>& aovs, const std::vec
       picture.image = rendered.components[static_cast<std::size_t>(aov.component)].image();
     else
       picture = render_view(document, rendered, aov.view, options);
-    picture.image = cropped(std::move(picture.image), options.pass.crop);
     for (const std::string& output : outputs) {
-      paths.push_back(aov_path(output, aov.name));
-      write_picture(picture.image, paths.back(), document.settings.display, aov.view, picture.display_scale,
-                    picture_metadata(rendered.spp, false));
+      const std::string path = paths.emplace_back(aov_path(output, aov.name));
+      writer.attempt(path, [&] {
+        write_picture(picture.image, path, document.settings.display, aov.view, picture.display_scale,
+                      picture_metadata(rendered.spp, false), rendered.film.origin());
+      });
     }
   }
   return paths;

@@ -1,6 +1,7 @@
 #pragma once
 // Arbitrary output variables: further pictures of a render, beside the one that its settings ask for.
 
+#include "app/outputs.h"
 #include "session/offline_render.h"
 
 #include <string>
@@ -23,10 +24,10 @@ bool needs_components(const std::vector<Aov>& aovs);
 /// "out.exr" for the AOV "normal": "out.normal.exr".
 std::string aov_path(const std::string& output, const std::string& name);
 
-/// Renders what the film does not hold, and writes every AOV beside every output, in its format. Parts of the
-/// image outside of the crop window are cut off, as they are of the output. Returns the paths.
+/// Renders what the film does not hold, and writes every AOV beside every output, in its format, of the crop
+/// window alone as the output is. Returns the paths.
 std::vector<std::string> write_aovs(const std::vector<Aov>& aovs, const std::vector<std::string>& outputs,
                                     const Document& document, const OfflineResult& rendered,
-                                    const OfflineOptions& options);
+                                    const OfflineOptions& options, OutputWriter& writer);
 
 } // namespace candela

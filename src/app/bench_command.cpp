@@ -1,6 +1,8 @@
 #include "app/bench_command.h"
 
 #include "app/interaction_bench.h"
+#include "app/outputs.h"
+#include "app/streams.h"
 #include "app/window_glfw.h"
 #include "app/window_offscreen.h"
 #include "core/error.h"
@@ -63,12 +65,16 @@ ordered_json result_json(const BenchResult& r, const std::string& surface, const
   return j;
 }
 
-void print_table(const BenchResult& r, const std::string& surface, const std::string& scene) {
-  fmt::print("{}, {} x {}, {}, {} threads, load {:.1f} to {:.1f}\n\n", scene, r.size.x, r.size.y, surface,
-             r.threads, r.load[0], r.load[1]);
-  fmt::print("{:<28}{:>10}{:>10}{:>10}\n", "ms from hand to picture", "median", "90 %", "99 %");
-  auto row = [](const std::string& name, const Spread& s) {
-    fmt::print("{:<28}{:>10.1f}{:>10.1f}{:>10.1f}\n", name, s.median, s.p90, s.p99);
+std::string table_text(const BenchResult& r, const std::string& surface, const std::string& scene) {
+  std::string out;
+  auto print = [&out]<class... T>(fmt::format_string<T...> format, T&&... values) {
+    out += fmt::format(format, std::forward<T>(values)...);
+  };
+  print("{}, {} x {}, {}, {} threads, load {:.1f} to {:.1f}\n\n", scene, r.size.x, r.size.y, surface,
+        r.threads, r.load[0], r.load[1]);
+  print("{:<28}{:>10}{:>10}{:>10}\n", "ms from hand to picture", "median", "90 %", "99 %");
+  auto row = [&](const std::string& name, const Spread& s) {
+    print("{:<28}{:>10.1f}{:>10.1f}{:>10.1f}\n", name, s.median, s.p90, s.p99);
   };
   for (const KindResult& k : r.kinds) {
     row(fmt::format("{}, first ({:.0f} px blocks)", to_string(k.kind), k.coarseness.median), k.first);
@@ -77,25 +83,27 @@ void print_table(const BenchResult& r, const std::string& surface, const std::st
   row("frame of the window", r.frames);
   const CpuBill& b = r.refining;
   auto share = [&](double seconds) { return 100 * seconds / (b.wall * r.threads); };
-  fmt::print("\n{} of {} frames dropped; a pass over all pixels takes {:.0f} ms\n", r.dropped, r.frames.count,
-             r.full_pass_ms);
-  fmt::print(
-      "refining, of {} cores: rendering {:.0f} %, tone mapping {:.1f} %, the window {:.1f} %, drawing it "
-      "and the rest {:.1f} %, other programs {:.0f} %\n",
-      r.threads, share(b.render), share(b.present), share(b.window),
-      share(std::max(b.process - b.render - b.present - b.window, 0.0)),
-      share(std::max(b.machine - b.process, 0.0)));
-  fmt::print("refining, of the time: {:.0f} % within passes; {:.2f} Msamples/s\n\n", 100 * b.passes / b.wall,
-             r.samples_per_second / 1e6);
+  print("\n{} of {} frames dropped; a pass over all pixels takes {:.0f} ms\n", r.dropped, r.frames.count,
+        r.full_pass_ms);
+  print("refining, of {} cores: rendering {:.0f} %, tone mapping {:.1f} %, the window {:.1f} %, drawing it "
+        "and the rest {:.1f} %, other programs {:.0f} %\n",
+        r.threads, share(b.render), share(b.present), share(b.window),
+        share(std::max(b.process - b.render - b.present - b.window, 0.0)),
+        share(std::max(b.machine - b.process, 0.0)));
+  print("refining, of the time: {:.0f} % within passes; {:.2f} Msamples/s\n\n", 100 * b.passes / b.wall,
+        r.samples_per_second / 1e6);
   for (const Target& t : targets(r))
-    fmt::print("{:<28}{:>10.1f} {:<3} {} {:.1f} {:<3} {}\n", t.name, t.measured, t.unit,
-               t.at_least ? "at least" : "at most ", t.limit, t.unit, t.met() ? "met" : "missed");
+    print("{:<28}{:>10.1f} {:<3} {} {:.1f} {:<3} {}\n", t.name, t.measured, t.unit,
+          t.at_least ? "at least" : "at most ", t.limit, t.unit, t.met() ? "met" : "missed");
+  return out;
 }
 
 } // namespace
 
 int run_interactive_bench(const InteractiveBenchOptions& o) {
   const std::string scene = o.scene.path.empty() ? "Cornell box" : o.scene.path;
+  check_stdout();
+  if (o.json) check_outputs({{"--json", *o.json}}, {o.scene.path});
   LoadedScene loaded = load_scene(o.scene);
   ivec2 size = o.short_run ? kShortSize : kSize;
   if (o.size) {
@@ -127,9 +135,13 @@ int run_interactive_bench(const InteractiveBenchOptions& o) {
   if (!bench.done())
     throw Error(ExitCode::interrupted, "bench: the window was closed before all was measured: run it again");
   const std::string surface = window ? "in a window" : "without a display";
-  if (o.json) write_file_atomically(*o.json, result_json(bench.result(), surface, scene).dump(2) + "\n");
-  print_table(bench.result(), surface, scene);
-  return 0;
+  OutputWriter writer;
+  if (o.json)
+    writer.attempt(*o.json, [&] {
+      write_file_atomically(*o.json, result_json(bench.result(), surface, scene).dump(2) + "\n");
+    });
+  print_result(table_text(bench.result(), surface, scene));
+  return static_cast<int>(writer.code());
 }
 
 } // namespace candela

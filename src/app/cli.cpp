@@ -6,21 +6,43 @@
 #include "app/gallery_command.h"
 #include "app/info_command.h"
 #include "app/lab_command.h"
+#include "app/number_option.h"
 #include "app/render_command.h"
 #include "app/scale_command.h"
 #include "app/settings_command.h"
+#include "app/streams.h"
 #include "app/view_command.h"
 #include "core/error.h"
+#include "scene/document.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <new>
+#include <sstream>
 
 namespace candela {
 
 namespace {
+
+void add_threads(CLI::App& command, int& threads,
+                 const std::string& help = "Threads to render with; 0: every core") {
+  add_number(command, "--threads", threads, range(0, 1024), help);
+}
+
+/// A file for what was measured.
+void add_json(CLI::App& command, const std::string& name, std::optional<std::string>& path) {
+  command.add_option_function<std::string>(
+      name, [&path](const std::string& given) { path = given == "-" ? "/dev/stdout" : given; },
+      "Write what was measured to this file (JSON); -: stdout");
+}
+
+/// An option that is a setting's, with its range.
+template <class T>
+void add_setting(CLI::App& command, const std::string& name, T& target, std::string_view key,
+                 const std::string& help) {
+  add_number(command, name, target, *find_setting(key), help);
+}
 
 /// The settings that have an option of their own are applied like `--set`, in the order given.
 void add_common_options(CLI::App& command, SceneOptions& o) {
@@ -31,14 +53,51 @@ void add_common_options(CLI::App& command, SceneOptions& o) {
   command.add_option("--bookmark", o.bookmark, "Look through the camera of this bookmark of the scene");
   command.add_flag("--allow-outside", o.allow_outside,
                    "Let the scene read files outside its own folder tree");
-  command.add_option("--threads", o.threads, "Threads to render with; 0: every core")
-      ->check(CLI::Range(0, 1024));
+  add_threads(command, o.threads);
+}
+
+/// The innermost command that was named.
+const CLI::App& chosen(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  return commands.empty() ? app : chosen(*commands.front());
+}
+
+/// "candela bench scale".
+std::string full_name(const CLI::App& command) {
+  return command.get_parent() == nullptr ? command.get_name()
+                                         : full_name(*command.get_parent()) + " " + command.get_name();
+}
+
+/// The error for an argument that is none of the command's.
+Error unexpected(const CLI::App& app) {
+  const CLI::App& command = chosen(app);
+  const std::string argument = app.remaining(true).front(), name = full_name(command);
+  const bool option = argument.starts_with('-');
+  std::vector<std::string> known;
+  for (const CLI::Option* o : command.get_options())
+    for (const std::string& long_name : o->get_lnames()) known.push_back("--" + long_name);
+  std::string near =
+      option ? nearest_name(argument, std::vector<std::string_view>(known.begin(), known.end())) : "";
+  // `candela rendr box.json`: the command was taken for the scene.
+  if (&command == &app && app.count("scene") > 0) {
+    std::vector<std::string_view> commands;
+    const auto all = app.get_subcommands([](const CLI::App*) { return true; });
+    for (const CLI::App* c : all) commands.push_back(c->get_name());
+    const std::string typed = app.get_option("scene")->as<std::string>();
+    if (const std::string meant = nearest_name(typed, commands); !meant.empty())
+      return usage_error("candela " + typed, "there is no such command",
+                         fmt::format("did you mean {}?", meant));
+  }
+  return usage_error(name, option ? "it has no option " + argument : argument + " is more than it takes",
+                     near.empty() ? fmt::format("see `{} --help`", name)
+                                  : fmt::format("did you mean {}?", near));
 }
 
 int run(int argc, char** argv) {
   CLI::App app{"Candela, an interactive progressive path tracer", "candela"};
   app.set_version_flag("--version", "candela " CANDELA_VERSION);
   app.require_subcommand(0, 1);
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast); // as shells' aliases expect
 
   SceneOptions view_options;
   add_common_options(app, view_options); // `candela SCENE` is `candela view SCENE`
@@ -57,12 +116,11 @@ int run(int argc, char** argv) {
                    "Picture to write: PNG JPG PPM EXR HDR PFM; may repeat")
       ->take_all()
       ->allow_extra_args(false);
-  render->add_option("--spp", render_options.spp, "Samples a pixel to stop at; 0: never")
-      ->check(CLI::NonNegativeNumber);
-  render->add_option("--time", render_options.time, "Seconds of rendering to stop at; 0: never")
-      ->check(CLI::NonNegativeNumber);
-  render->add_option("--noise", render_options.noise, "Relative error of the image to stop at; 0: never")
-      ->check(CLI::NonNegativeNumber);
+  add_setting(*render, "--spp", render_options.spp, "stop.spp", "Samples a pixel to stop at; 0: never");
+  add_setting(*render, "--time", render_options.time, "stop.time",
+              "Seconds of rendering to stop at; 0: never");
+  add_setting(*render, "--noise", render_options.noise, "stop.noise",
+              "Relative error of the image to stop at; 0: never");
   render
       ->add_option(
           "--aov", render_options.aovs,
@@ -70,12 +128,11 @@ int run(int argc, char** argv) {
       ->take_all()
       ->allow_extra_args(false);
   render->add_option("--size", render_options.size, "Size of the image, WxH");
-  render->add_option("--seed", render_options.seed, "Seed of the random numbers")
-      ->check(CLI::NonNegativeNumber);
+  add_setting(*render, "--seed", render_options.seed, "sampler.seed", "Seed of the random numbers");
   render->add_option("--crop", render_options.crop, "Render only this window of the image: X,Y,W,H");
   render->add_option("--reference", render_options.reference,
                      "Compare with this picture; the result goes to stdout");
-  render->add_option("--stats", render_options.stats, "Write what was measured to this file (JSON)");
+  add_json(*render, "--stats", render_options.stats);
   render->add_flag("--no-state", render_options.no_state,
                    "Do not keep the scene in PNG and EXR, from which they can be rendered again");
   render->add_flag("--quiet", render_options.quiet, "Say nothing but warnings and errors");
@@ -96,12 +153,10 @@ int run(int argc, char** argv) {
   auto* gallery = app.add_subcommand("gallery", "Make the figures of a gallery file");
   gallery->add_option("name", gallery_options.names, "Figures to make; none: all");
   gallery->add_option("-o,--output", gallery_options.folder, "Folder that the pictures go to");
-  gallery->add_option("--file", gallery_options.file, "Gallery file; else the one that comes with Candela")
-      ->check(CLI::ExistingFile);
-  gallery->add_option("--spp-scale", gallery_options.spp_scale, "Multiplies all samples a pixel")
-      ->check(CLI::Range(1e-6, 1e6));
-  gallery->add_option("--threads", gallery_options.threads, "Threads to render with; 0: every core")
-      ->check(CLI::Range(0, 1024));
+  gallery->add_option("--file", gallery_options.file, "Gallery file; else the one that comes with Candela");
+  add_number(*gallery, "--spp-scale", gallery_options.spp_scale, range(1e-6, 1e6),
+             "Multiplies all samples a pixel");
+  add_threads(*gallery, gallery_options.threads);
   gallery->add_flag("--quick", gallery_options.quick, "Half the size, a sixteenth of the samples");
   gallery->add_flag("--list", gallery_options.list, "Only say which figures there are");
   gallery->add_flag("--quiet", gallery_options.quiet, "Say nothing but warnings and errors");
@@ -118,6 +173,8 @@ int run(int argc, char** argv) {
   settings->add_flag("--json", json, "As JSON");
   settings->add_flag("--markdown", markdown, "As a Markdown table")->excludes("--json");
 
+  auto* help = app.add_subcommand("help", "Print this help");
+
   LabCommand lab(app);
 
   InteractiveBenchOptions bench_options;
@@ -128,11 +185,10 @@ int run(int argc, char** argv) {
                      "there is no display); ms to the first image, frames, shares of the cores");
   add_common_options(*interactive, bench_options.scene);
   interactive->add_option("--size", bench_options.size, "Size of the window, WxH; else 1280x720");
-  interactive->add_option("--repeats", bench_options.repeats, "Inputs of each kind")
-      ->check(CLI::Range(1, 1000));
-  interactive->add_option("--seconds", bench_options.seconds, "Of flight, and of refining undisturbed")
-      ->check(CLI::Range(0.1, 600.0));
-  interactive->add_option("--json", bench_options.json, "Write what was measured to this file");
+  add_number(*interactive, "--repeats", bench_options.repeats, range(1, 1000), "Inputs of each kind");
+  add_number(*interactive, "--seconds", bench_options.seconds, range(0.1, 600, "s"),
+             "Of flight, and of refining undisturbed");
+  add_json(*interactive, "--json", bench_options.json);
   interactive->add_flag("--short", bench_options.short_run, "A small window and few inputs: does it work?");
   interactive->add_flag("--offscreen", bench_options.offscreen,
                         "Draw into memory even if there is a display");
@@ -150,17 +206,16 @@ int run(int argc, char** argv) {
       ->take_all()
       ->allow_extra_args(false);
   scale->add_option("--size", scale_options.size, "Size of the measured pictures, WxH; else 960x540");
-  scale->add_option("--rounds", scale_options.rounds, "Passes by one thread and by all, in turn")
-      ->check(CLI::Range(1, 1000));
-  scale->add_option("--threads", scale_options.threads, "Threads of the parallel passes; 0: every core")
-      ->check(CLI::Range(0, 1024));
+  add_number(*scale, "--rounds", scale_options.rounds, range(1, 1000),
+             "Passes by one thread and by all, in turn");
+  add_threads(*scale, scale_options.threads, "Threads of the parallel passes; 0: every core");
   scale->add_option("--plot", scale_options.plot, "Draw samples a second over the triangles to this PNG");
   scale->add_option("--picture", scale_options.picture,
                     "Render the landscape to this file, without a denoiser; seconds and relMSE");
   scale->add_option("--picture-size", scale_options.picture_size, "Its size, WxH; else 3840x2160");
-  scale->add_option("--picture-spp", scale_options.picture_spp, "Its samples a pixel; else 64")
-      ->check(CLI::Range(2, 1000000));
-  scale->add_option("--json", scale_options.json, "Write what was measured to this file");
+  add_number(*scale, "--picture-spp", scale_options.picture_spp, range(2, 1000000, "samples"),
+             "Its samples a pixel; else 64");
+  add_json(*scale, "--json", scale_options.json);
   scale->add_flag("--markdown", scale_options.markdown, "The tables in Markdown");
   scale->add_flag("--short", scale_options.short_run, "Tiny scenes and pictures: does it work?");
   scale->add_flag("--quiet", scale_options.quiet, "Say nothing but warnings and errors");
@@ -168,10 +223,21 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) { // --help, --version
-    return app.exit(e);
-  } catch (const CLI::ParseError& e) {
-    std::string what = e.what();
-    throw usage_error("command line", what, "see `candela --help`");
+    std::ostringstream out, err;
+    const int code = app.exit(e, out, err);
+    print_result(out.str());
+    return code;
+  } catch (const CLI::ExtrasError&) { throw unexpected(app); } catch (const CLI::ParseError& e) {
+    throw usage_error("command line", e.what(), fmt::format("see `{} --help`", full_name(chosen(app))));
+  }
+  // Which would be the Cornell box, as in `candela view`.
+  for (const auto& [command, options] :
+       {std::pair{render, &render_options.scene}, {info, &info_options}, {convert, &convert_options}})
+    if (command->parsed() && options->path.empty())
+      throw usage_error(full_name(*command), "the scene's name is empty", "name a scene file");
+  if (help->parsed()) {
+    print_result(app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
+    return 0;
   }
   if (render->parsed()) return run_render(render_options);
   if (compare->parsed()) return run_compare(compare_a, compare_b, diff);
@@ -191,12 +257,11 @@ int run_program(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const Error& e) {
-    fmt::print(stderr, "candela: {}\n", e.what());
+    say("candela: {}\n", e.what());
     return static_cast<int>(e.code());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "candela: memory: there is not enough: close other programs or make the scene or the film "
-               "smaller\n");
+    say("candela: memory: there is not enough: close other programs or make the scene or the film "
+        "smaller\n");
     return static_cast<int>(ExitCode::limit);
   }
 }

@@ -1,12 +1,12 @@
 #include "app/compare_command.h"
 
+#include "app/outputs.h"
+#include "app/streams.h"
 #include "core/error.h"
 #include "io/image_file.h"
 #include "render/compare.h"
 
 #include <fmt/format.h>
-
-#include <cstdio>
 
 namespace candela {
 
@@ -15,6 +15,8 @@ int run_compare(const std::string& a, const std::string& b, const std::optional<
   if (diff_path && is_linear_format(image_format_of(*diff_path)))
     throw usage_error(fmt::format("--diff {}", *diff_path), "the differences are an 8-bit picture",
                       "use .png, .jpg or .ppm");
+  check_stdout();
+  if (diff_path) check_outputs({{"--diff", *diff_path}}, {a, b});
   Image image = read_image(a), reference = read_image(b);
   if (image.width != reference.width || image.height != reference.height)
     throw input_error({a}, "image",
@@ -22,10 +24,13 @@ int run_compare(const std::string& a, const std::string& b, const std::optional<
                                   reference.width, reference.height),
                       "compare pictures of one size");
   std::string json = comparison_json(compare_images(image, reference));
+  OutputWriter writer;
   if (diff_path)
-    write_srgb8_image(image.width, image.height, relative_error_picture(image, reference), *diff_path);
-  fmt::print("{}\n", json);
-  return 0;
+    writer.attempt(*diff_path, [&] {
+      write_srgb8_image(image.width, image.height, relative_error_picture(image, reference), *diff_path);
+    });
+  print_result(json + "\n");
+  return static_cast<int>(writer.code());
 }
 
 } // namespace candela

@@ -1,5 +1,7 @@
 #include "app/convert_command.h"
 
+#include "app/outputs.h"
+#include "app/streams.h"
 #include "core/error.h"
 #include "io/scene_export.h"
 #include "io/text_file.h"
@@ -17,13 +19,14 @@ int run_convert(const SceneOptions& options, const std::string& output) {
   std::error_code failed;
   if (std::filesystem::equivalent(options.path, output, failed))
     throw usage_error(output, "it is the scene that is to be converted", "give another name");
+  check_outputs({{"convert", output}});
   LoadedScene loaded = load_scene(options);
   for (const std::string& picture : loaded.output_files)
-    fmt::print(stderr, "candela: warning: {}: the job's output {} is not part of a scene: left out\n",
-               options.path, picture);
+    say("candela: warning: {}: the job's output {} is not part of a scene: left out\n", options.path,
+        picture);
   for (const ExportedFile& file : export_candela_json(std::move(loaded.document), output))
-    fmt::print(stderr, "candela: copied {} to {}\n", file.from, file.to);
-  fmt::print(stderr, "candela: wrote {}\n", output);
+    say("candela: copied {} to {}\n", file.from, file.to);
+  say("candela: wrote {}\n", output);
   return 0;
 }
 

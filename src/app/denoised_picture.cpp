@@ -1,5 +1,6 @@
 #include "app/denoised_picture.h"
 
+#include "app/streams.h"
 #include "render/denoise_film.h"
 
 #include <fmt/format.h>
@@ -13,11 +14,11 @@ std::optional<DenoisedPicture> denoised_picture(const Document& document, const 
                                                 const PassOptions& pass) {
   if (!document.settings.display.denoise || document.settings.view != View::radiance) return std::nullopt;
   if (result.spp < 2) {
-    fmt::print(stderr, "candela: warning: denoising takes two samples a pixel: the picture is as rendered\n");
+    say("candela: warning: denoising takes two samples a pixel: the picture is as rendered\n");
     return std::nullopt;
   }
   const auto start = std::chrono::steady_clock::now();
-  FeatureFilm features(result.film.width(), result.film.height());
+  FeatureFilm features(result.film.width(), result.film.height(), result.film.origin());
   auto image = denoise_render(noisy_image(result.film), result.spp, *result.scene, document, features,
                               {pass.threads, nullptr});
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

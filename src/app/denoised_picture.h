@@ -8,7 +8,7 @@
 namespace candela {
 
 struct DenoisedPicture {
-  Image image;    ///< of the whole film
+  Image image;    ///< of what the film holds
   double seconds; ///< features and all
 };
 

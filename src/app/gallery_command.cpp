@@ -3,8 +3,10 @@
 #include "app/data_file.h"
 #include "app/denoised_picture.h"
 #include "app/figure.h"
+#include "app/outputs.h"
 #include "app/picture_output.h"
 #include "app/progress_bar.h"
+#include "app/streams.h"
 #include "core/error.h"
 #include "io/image_file.h"
 #include "io/scene_reader.h"
@@ -44,20 +46,31 @@ class GalleryMaker {
 public:
   explicit GalleryMaker(const GalleryOptions& options) : options_(options), bar_(options.quiet) {}
 
-  void make(const std::vector<const GalleryFigure*>& figures) {
+  /// How it ended: a figure that cannot be written does not cost the others.
+  ExitCode make(const std::vector<const GalleryFigure*>& figures) {
+    std::vector<PlannedOutput> outputs;
+    for (const GalleryFigure* figure : figures) outputs.push_back({"gallery", path_of(*figure)});
+    check_outputs(outputs, {options_.file});
     for (const GalleryFigure* figure : figures) total_ += work_of(*figure);
     for (const GalleryFigure* figure : figures) {
       name_ = figure->name;
-      const std::string path = fmt::format("{}/{}.png", options_.folder, figure->name);
+      const std::string path = path_of(*figure);
       const RgbPicture picture = figure->plain
                                      ? render(*figure, document_of(*figure, figure->panels[0])).picture
                                      : draw_figure(compose(*figure), face_);
-      write_srgb8_image(picture.width, picture.height, picture.rgb, path);
-      bar_.finish(path);
+      writer_.attempt(path, [&] {
+        write_srgb8_image(picture.width, picture.height, picture.rgb, path);
+        bar_.finish(path);
+      });
     }
+    return writer_.code();
   }
 
 private:
+  std::string path_of(const GalleryFigure& figure) const {
+    return fmt::format("{}/{}.png", options_.folder, figure.name);
+  }
+
   int scaled_spp(int spp) const {
     const float scale = options_.spp_scale * (options_.quick ? kQuickSpp : 1);
     return std::max(1, static_cast<int>(std::lround(static_cast<double>(spp) * static_cast<double>(scale))));
@@ -126,8 +139,8 @@ private:
     OfflineResult result = render_document(document, offline);
     done_ += work;
     if (result.nonfinite.count > 0)
-      fmt::print(stderr, "candela: warning: figure '{}': {} samples were not finite and are left out\n",
-                 figure.name, result.nonfinite.count);
+      say("candela: warning: figure '{}': {} samples were not finite and are left out\n", figure.name,
+          result.nonfinite.count);
     Rendering out{view_image(result.film, document.settings.view),
                   {},
                   mean_samples(result),
@@ -219,6 +232,7 @@ private:
 
   const GalleryOptions& options_;
   ProgressBar bar_;
+  OutputWriter writer_;
   Typeface face_ = Typeface::installed();
   std::map<std::string, Document> scenes_;
   std::string name_;
@@ -253,18 +267,20 @@ int run_gallery(const GalleryOptions& options) {
   const std::vector<GalleryFigure> all = read_gallery(file);
   const std::vector<const GalleryFigure*> figures = chosen(all, options.names);
   if (options.list) {
+    std::string list;
     for (const GalleryFigure* figure : figures)
-      fmt::print("{:<24} {}\n", figure->name,
-                 !figure->title.empty() ? figure->title
-                                        : std::filesystem::path(figure->panels[0].scene).filename().string());
+      list += fmt::format("{:<24} {}\n", figure->name,
+                          !figure->title.empty()
+                              ? figure->title
+                              : std::filesystem::path(figure->panels[0].scene).filename().string());
+    print_result(list);
     return 0;
   }
   std::error_code failed;
   std::filesystem::create_directories(options.folder, failed);
   if (failed)
     throw output_error(options.folder, failed.message(), "name a folder that you may write to with -o");
-  GalleryMaker(options).make(figures);
-  return 0;
+  return static_cast<int>(GalleryMaker(options).make(figures));
 }
 
 } // namespace candela

@@ -1,5 +1,6 @@
 #include "app/info_command.h"
 
+#include "app/streams.h"
 #include "render/render_scene.h"
 
 #include <fmt/format.h>
@@ -12,7 +13,12 @@ namespace candela {
 
 namespace {
 
-nlohmann::ordered_json vector_json(vec3 v) { return {v.x, v.y, v.z}; }
+/// As short as it reads back: 548.8, not 548.7999877929688, which JSON's doubles would make of a float.
+nlohmann::ordered_json number_json(float x) {
+  return std::isfinite(x) ? nlohmann::ordered_json::parse(fmt::format("{}", x)) : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json vector_json(vec3 v) { return {number_json(v.x), number_json(v.y), number_json(v.z)}; }
 
 const char* light_name(const Light& light) {
   static constexpr const char* kNames[] = {"rectangle",   "triangle", "sphere", "disc",       "point",
@@ -29,13 +35,14 @@ nlohmann::ordered_json camera_json(const Document& document) {
                                 {"target", vector_json(camera.target)},
                                 {"up", vector_json(camera.up)}};
   if (camera.projection == Projection::orthographic)
-    out["orthographic_height"] = camera.orthographic_height;
+    out["orthographic_height"] = number_json(camera.orthographic_height);
   else
-    out["vertical_fov"] = degrees(camera.vertical_fov);
-  if (camera.aspect > 0) out["aspect"] = camera.aspect;
+    out["vertical_fov"] =
+        nlohmann::ordered_json::parse(field_text(*find_setting("camera.vertical_fov"), document));
+  if (camera.aspect > 0) out["aspect"] = number_json(camera.aspect);
   if (camera.aperture_radius > 0) {
-    out["aperture_radius"] = camera.aperture_radius;
-    out["focus_distance"] = camera.effective_focus_distance();
+    out["aperture_radius"] = number_json(camera.aperture_radius);
+    out["focus_distance"] = number_json(camera.effective_focus_distance());
     if (camera.blades >= 3) out["blades"] = camera.blades;
   }
   return out;
@@ -44,6 +51,7 @@ nlohmann::ordered_json camera_json(const Document& document) {
 } // namespace
 
 int run_info(const SceneOptions& options) {
+  check_stdout();
   LoadedScene loaded = load_scene(options);
   const SceneDesc& desc = loaded.document.scene;
   auto scene = RenderScene::build(loaded.document);
@@ -101,7 +109,7 @@ int run_info(const SceneOptions& options) {
   out["memory_bytes"] = scene->memory_bytes();
   out["warnings"] = nlohmann::ordered_json::array();
   for (const Warning& w : loaded.warnings) out["warnings"].push_back({{"text", w.text}, {"count", w.count}});
-  fmt::print("{}\n", out.dump(2));
+  print_result(out.dump(2) + "\n");
   return 0;
 }
 

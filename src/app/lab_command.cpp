@@ -3,6 +3,7 @@
 #include "app/lab_inputs.h"
 #include "app/lab_report.h"
 #include "app/progress_bar.h"
+#include "app/streams.h"
 #include "core/error.h"
 #include "lab/lessons.h"
 #include "render/render_scene.h"
@@ -48,7 +49,11 @@ void add_field(CLI::App& command, const FieldInfo& row, Texts& texts, const std:
 
 template <class Owner>
 void read_field(const Field<Owner>& row, Owner& owner, const Texts& texts, const std::string& name) {
-  if (const std::string& text = texts.at(name); !text.empty()) field_from_text(row, row.address(owner), text);
+  const std::string& text = texts.at(name);
+  if (text.empty()) return;
+  FieldInfo named = row; // in messages, as it was typed
+  named.key = name;
+  field_from_text(named, row.address(owner), text);
 }
 
 std::string sampler_option(const FieldInfo& row) {
@@ -135,7 +140,7 @@ struct LabCommand::Options {
     return owner;
   }
 
-  void print(const LabReport& report) const { fmt::print("{}", json ? report.json : report.text); }
+  void print(const LabReport& report) const { print_result(json ? report.json : report.text); }
 
   template <class E>
   void estimate(std::string_view name, E experiment) const {
@@ -226,6 +231,7 @@ LabCommand::~LabCommand() = default;
 bool LabCommand::parsed() const { return options_->lab->parsed(); }
 
 int LabCommand::run() const {
+  check_stdout();
   const Options& o = *options_;
   const std::vector<std::string> left = o.lab->remaining(true);
   if (!left.empty() && !o.lab->get_subcommands().empty())

@@ -1,5 +1,6 @@
 #include "app/picture_output.h"
 
+#include "app/streams.h"
 #include "render/denoise_film.h"
 #include "render/display_transform.h"
 
@@ -8,19 +9,11 @@
 namespace candela {
 
 std::vector<std::uint8_t> displayed_srgb8(const Image& image, const DisplaySettings& display, View view,
-                                          float display_scale) {
+                                          float display_scale, ivec2 origin) {
   std::vector<std::uint8_t> rgb(3 * image.pixels.size());
-  display_rgb8(image.pixels,
+  display_rgb8(image.pixels, {image.width, origin},
                display_transform(image.pixels, image.width, image.height, display, view, display_scale), rgb);
   return rgb;
-}
-
-Image cropped(Image image, const CropWindow& crop) {
-  if (crop.width <= 0) return image;
-  Image out{crop.width, crop.height, {}};
-  for (int y = 0; y < crop.height; ++y)
-    for (int x = 0; x < crop.width; ++x) out.pixels.push_back(image.at(crop.x + x, crop.y + y));
-  return out;
 }
 
 ImageMetadata picture_metadata(int spp, bool denoised) {
@@ -33,19 +26,18 @@ ImageMetadata picture_metadata(int spp, bool denoised) {
 ImageMetadata with_state(ImageMetadata metadata, const PictureState& state, const std::string& path) {
   if (!holds_state(image_format_of(path))) return metadata;
   ImageMetadata texts = picture_state_texts(state, path);
-  if (texts.empty())
-    fmt::print(stderr, "candela: warning: {}: the scene is too large to be kept in the picture\n", path);
+  if (texts.empty()) say("candela: warning: {}: the scene is too large to be kept in the picture\n", path);
   metadata.merge(texts);
   return metadata;
 }
 
 void write_picture(const Image& image, const std::string& path, const DisplaySettings& display, View view,
-                   float display_scale, const ImageMetadata& metadata) {
+                   float display_scale, const ImageMetadata& metadata, ivec2 origin) {
   if (is_linear_format(image_format_of(path)))
     write_linear_image(image, path, metadata);
   else
-    write_srgb8_image(image.width, image.height, displayed_srgb8(image, display, view, display_scale), path,
-                      metadata);
+    write_srgb8_image(image.width, image.height, displayed_srgb8(image, display, view, display_scale, origin),
+                      path, metadata);
 }
 
 } // namespace candela

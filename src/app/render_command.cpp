@@ -2,8 +2,10 @@
 
 #include "app/aov_output.h"
 #include "app/denoised_picture.h"
+#include "app/outputs.h"
 #include "app/picture_output.h"
 #include "app/progress_bar.h"
+#include "app/streams.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "io/atomic_file.h"
@@ -136,9 +138,66 @@ std::string rate_text(const OfflineProgress& p) {
                      static_cast<double>(p.rays.samples) / std::max(p.render_seconds, 1e-9) / 1e6);
 }
 
+/// Refuses what cannot be written, for the work is not to be done in vain.
+void check_render_outputs(const RenderOptions& options, const std::vector<std::string>& pictures,
+                          const std::vector<Aov>& aovs, std::vector<std::string> inputs) {
+  std::vector<PlannedOutput> planned;
+  for (const std::string& path : pictures) {
+    image_format_of(path);
+    if (path.starts_with('=')) // -o=FILE is -o with the file =FILE
+      throw usage_error("-o" + path, "the name begins with '='", fmt::format("write -o {}", path.substr(1)));
+    planned.push_back({"-o", path});
+    for (const Aov& aov : aovs) planned.push_back({"--aov", aov_path(path, aov.name)});
+  }
+  if (options.stats) planned.push_back({"--stats", *options.stats});
+  if (options.reference) inputs.push_back(*options.reference);
+  if (options.scene.path != options.reference && !is_image_name(options.scene.path))
+    inputs.push_back(options.scene.path); // a picture may be made again in its own place
+  check_outputs(planned, inputs);
+}
+
+/// The pictures that the scene is made of.
+std::vector<std::string> picture_files(const SceneDesc& scene) {
+  std::vector<std::string> files;
+  for (const auto& texture : scene.textures) files.push_back(texture->source);
+  for (const LightDesc& light : scene.lights)
+    if (light.panorama)
+      files.insert(files.end(), light.panorama->sources.begin(), light.panorama->sources.end());
+  std::erase(files, "");
+  return files;
+}
+
+/// The pixels that are written.
+ivec2 picture_size(const FilmSettings& film, const CropWindow& crop) {
+  return crop.width > 0 ? ivec2(crop.width, crop.height) : ivec2(film.width, film.height);
+}
+
+void check_reference(const Image& reference, const std::string& path, ivec2 size) {
+  if (reference.width == size.x && reference.height == size.y) return;
+  throw input_error(
+      {path}, "reference",
+      fmt::format("it has {}x{} pixels, the render {}x{}", reference.width, reference.height, size.x, size.y),
+      "render at the reference's --size");
+}
+
+void warn_of_nonfinite(const NonFiniteLog& log) {
+  if (log.count == 0) return;
+  const NonFiniteSample& first = log.records.front();
+  say("candela: warning: {} samples were not finite and are left out; the first is pixel {},{} sample {} at "
+      "depth {}\n",
+      log.count, first.pixel.x, first.pixel.y, first.sample, first.depth);
+}
+
 } // namespace
 
 int run_render(const RenderOptions& options) {
+  const std::vector<Aov> aovs = parse_aovs(options.aovs);
+  check_render_outputs(options, options.outputs, aovs, {});
+  std::optional<Image> reference;
+  if (options.reference) {
+    check_stdout();
+    reference = read_image(*options.reference);
+  }
   auto load_start = std::chrono::steady_clock::now();
   SceneOptions scene_options = options.scene;
   scene_options.settings.clear(); // applied after the other options
@@ -153,13 +212,11 @@ int run_render(const RenderOptions& options) {
   const FilmSettings& film = loaded.document.settings.film;
   if (!options.crop && (film.width != loaded_film.width || film.height != loaded_film.height))
     offline.pass.crop = {}; // the part that the picture shows is one of another film
-  std::vector<std::string> outputs = options.outputs.empty() ? loaded.output_files : options.outputs;
+  const std::vector<std::string> outputs = options.outputs.empty() ? loaded.output_files : options.outputs;
   if (outputs.empty()) throw usage_error("render", "there is nowhere to write to", "add -o FILE");
-  for (const std::string& path : outputs) image_format_of(path); // refuse before the work, not after
-  std::vector<Aov> aovs = parse_aovs(options.aovs);
+  check_render_outputs(options, outputs, aovs, picture_files(loaded.document.scene));
+  if (reference) check_reference(*reference, *options.reference, picture_size(film, offline.pass.crop));
   offline.components = needs_components(aovs);
-  std::optional<Image> reference;
-  if (options.reference) reference = read_image(*options.reference);
 
   ProgressBar bar(options.quiet);
   offline.stop = &stop_requested;
@@ -169,55 +226,49 @@ int run_render(const RenderOptions& options) {
   try {
     result = render_document(loaded.document, offline);
   } catch (const Cancelled&) {
-    fmt::print(stderr, "candela: interrupted while the scene was built; there is nothing to save\n");
+    say("candela: interrupted while the scene was built; there is nothing to save\n");
     return interrupted_status();
   }
-  Image image = cropped(view_image(result.film, loaded.document.settings.view), offline.pass.crop);
-  if (reference && (reference->width != image.width || reference->height != image.height))
-    throw input_error({*options.reference, 0, 0}, "reference",
-                      fmt::format("it has {}x{} pixels, the render {}x{}", reference->width,
-                                  reference->height, image.width, image.height),
-                      "render at the reference's --size");
-  std::optional<DenoisedPicture> denoised = denoised_picture(loaded.document, result, offline.pass);
-  if (denoised) denoised->image = cropped(std::move(denoised->image), offline.pass.crop);
+  const Image image = view_image(result.film, loaded.document.settings.view);
+  const std::optional<DenoisedPicture> denoised = denoised_picture(loaded.document, result, offline.pass);
   const Image& shown = denoised ? denoised->image : image;
   PictureState state{loaded.document, std::max(result.spp, 1), {}};
   if (const CropWindow& c = offline.pass.crop; c.width > 0) state.crop = {c.x, c.y, c.width, c.height};
-  for (const std::string& path : outputs) {
-    const ImageMetadata metadata = picture_metadata(result.spp, denoised.has_value());
-    write_picture(shown, path, loaded.document.settings.display, loaded.document.settings.view,
-                  result.display_scale, options.no_state ? metadata : with_state(metadata, state, path));
-  }
-  for (const std::string& path : write_aovs(aovs, outputs, loaded.document, result, offline))
-    outputs.push_back(path);
+  OutputWriter writer;
+  std::vector<std::string> written = outputs;
+  for (const std::string& path : outputs)
+    writer.attempt(path, [&] {
+      const ImageMetadata metadata = picture_metadata(result.spp, denoised.has_value());
+      write_picture(shown, path, loaded.document.settings.display, loaded.document.settings.view,
+                    result.display_scale, options.no_state ? metadata : with_state(metadata, state, path),
+                    result.film.origin());
+    });
+  for (const std::string& path : write_aovs(aovs, outputs, loaded.document, result, offline, writer))
+    written.push_back(path);
 
   int threads = options.scene.threads > 0 ? options.scene.threads : omp_get_num_procs();
   if (options.stats)
-    write_file_atomically(*options.stats,
-                          stats_json(loaded.document, result, image, load_seconds,
-                                     denoised ? std::optional(denoised->seconds) : std::nullopt, threads)
-                                  .dump(2) +
-                              "\n");
-  bar.finish(
-      fmt::format("{} spp in {:.2f} s, {:.2f} Msamples/s: {}", result.spp, result.render_seconds,
-                  static_cast<double>(result.rays.samples) / std::max(result.render_seconds, 1e-9) / 1e6,
-                  fmt::join(outputs, ", ")));
-  if (result.nonfinite.count > 0) {
-    const NonFiniteSample& first = result.nonfinite.records.front();
-    fmt::print(stderr,
-               "candela: warning: {} samples were not finite and are left out; the first is pixel {},{} "
-               "sample {} at depth {}\n",
-               result.nonfinite.count, first.pixel.x, first.pixel.y, first.sample, first.depth);
-  }
+    writer.attempt(*options.stats, [&] {
+      write_file_atomically(*options.stats,
+                            stats_json(loaded.document, result, image, load_seconds,
+                                       denoised ? std::optional(denoised->seconds) : std::nullopt, threads)
+                                    .dump(2) +
+                                "\n");
+    });
+  if (writer.code() == ExitCode::done)
+    bar.finish(
+        fmt::format("{} spp in {:.2f} s, {:.2f} Msamples/s: {}", result.spp, result.render_seconds,
+                    static_cast<double>(result.rays.samples) / std::max(result.render_seconds, 1e-9) / 1e6,
+                    fmt::join(written, ", ")));
+  warn_of_nonfinite(result.nonfinite);
   if (result.missing > 0)
-    fmt::print(
-        stderr,
-        "candela: warning: the render ended before every pixel had a sample: {:.1f} % of them have none "
-        "and repeat a neighbour where there is one\n",
+    say("candela: warning: the render ended before every pixel had a sample: {:.1f} % of them have none and "
+        "repeat a neighbour where there is one\n",
         100 * result.missing);
-  if (reference) fmt::print("{}\n", reference_json(shown, denoised ? &image : nullptr, *reference));
+  if (reference) print_result(reference_json(shown, denoised ? &image : nullptr, *reference) + "\n");
+  if (writer.code() != ExitCode::done) return static_cast<int>(writer.code());
   if (!result.interrupted) return 0;
-  fmt::print(stderr, "candela: interrupted; what was rendered is saved\n");
+  say("candela: interrupted; what was rendered is saved\n");
   return interrupted_status();
 }
 

@@ -2,9 +2,11 @@
 
 #include "app/data_file.h"
 #include "app/figure.h"
+#include "app/outputs.h"
 #include "app/scale_report.h"
 #include "app/scale_scenes.h"
 #include "app/separate_process.h"
+#include "app/streams.h"
 #include "core/error.h"
 #include "io/atomic_file.h"
 #include "io/image_file.h"
@@ -64,7 +66,9 @@ public:
       path_ = (std::filesystem::temp_directory_path() / "candela-scale-XXXXXX").string();
       if (::mkdtemp(path_.data()) == nullptr) failed = std::error_code(errno, std::generic_category());
     }
-    if (failed) throw Error(ExitCode::output, fmt::format("{}: folder: {}", path_, failed.message()));
+    if (failed)
+      throw Error(ExitCode::output, fmt::format("{}: folder: {}: name one that you may write to with -o",
+                                                path_, failed.message()));
   }
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -111,7 +115,7 @@ private:
   }
 
   void say(const std::string& what) const {
-    if (!options_.quiet) fmt::print(stderr, "candela: {}\n", what);
+    if (!options_.quiet) candela::say("candela: {}\n", what);
   }
 
   std::string written(const std::string& what, const std::function<std::string()>& write) const {
@@ -196,15 +200,24 @@ int run_scale_bench(const ScaleBenchOptions& o) {
   extent.picture_size = size_of(o.picture_size, "--picture-size", extent.picture_size);
   extent.rounds = o.rounds.value_or(extent.rounds);
   extent.picture_spp = o.picture_spp.value_or(extent.picture_spp);
-  for (const auto* path : {&o.plot, &o.picture}) // refuse before the work, not after
-    if (*path) image_format_of(**path);
+  // Refuse before the work, not after.
+  check_stdout();
+  std::vector<PlannedOutput> outputs;
+  for (const auto& [option, path] :
+       {std::pair("--plot", o.plot), {"--picture", o.picture}, {"--json", o.json}}) {
+    if (!path) continue;
+    if (path != o.json) image_format_of(*path);
+    outputs.push_back({option, *path});
+  }
+  check_outputs(outputs, o.scenes);
   const double load = load_average();
   ScaleReport report = ScaleRun(o, extent).run();
   report.load = {load, load_average()};
-  if (o.json) write_file_atomically(*o.json, scale_json(report));
-  if (o.plot) write_plot(report, *o.plot);
-  fmt::print("{}", scale_tables(report, o.markdown ? TableFormat::markdown : TableFormat::text));
-  return 0;
+  OutputWriter writer;
+  if (o.json) writer.attempt(*o.json, [&] { write_file_atomically(*o.json, scale_json(report)); });
+  if (o.plot) writer.attempt(*o.plot, [&] { write_plot(report, *o.plot); });
+  print_result(scale_tables(report, o.markdown ? TableFormat::markdown : TableFormat::text));
+  return static_cast<int>(writer.code());
 }
 
 } // namespace candela

@@ -1,5 +1,6 @@
 #include "app/settings_command.h"
 
+#include "app/streams.h"
 #include "scene/document.h"
 
 #include <fmt/format.h>
@@ -115,7 +116,7 @@ std::string settings_markdown() {
 }
 
 int run_settings(bool json, bool markdown) {
-  fmt::print("{}", json ? settings_json() : markdown ? settings_markdown() : settings_text());
+  print_result(json ? settings_json() : markdown ? settings_markdown() : settings_text());
   return 0;
 }
 

@@ -1,5 +1,6 @@
 #include "app/view_command.h"
 
+#include "app/streams.h"
 #include "app/window_glfw.h"
 #include "core/error.h"
 
@@ -28,8 +29,7 @@ int run_view(const SceneOptions& options, bool use_preferences) {
   if (!viewer.preferences_path.empty()) {
     std::string warning;
     viewer.preferences = read_preferences(viewer.preferences_path, warning);
-    if (!warning.empty())
-      viewer.warnings.push_back(warning), fmt::print(stderr, "candela: warning: {}\n", warning);
+    if (!warning.empty()) viewer.warnings.push_back(warning), say("candela: warning: {}\n", warning);
   }
   for (const Warning& w : loaded.warnings) viewer.warnings.push_back(w.text);
   run_window(std::move(viewer));

@@ -70,7 +70,20 @@ bool in_range(const FieldInfo& field, double value) {
   auto stored = [&](double x) {
     return field.type == FieldType::integer ? x : static_cast<double>(static_cast<float>(x));
   };
-  return stored(value) >= stored(field.minimum) && stored(value) <= stored(field.maximum);
+  return (field.above_minimum ? stored(value) > stored(field.minimum)
+                              : stored(value) >= stored(field.minimum)) &&
+         stored(value) <= stored(field.maximum);
+}
+
+/// A limit as people write it: 1e9 rather than 1000000000, which nobody counts. Integers do not take that
+/// form.
+std::string bound_text(double bound, bool integer) {
+  if (!integer && std::abs(bound) >= 1e6) {
+    const int exponent = static_cast<int>(std::floor(std::log10(std::abs(bound))));
+    const std::string text = fmt::format("{}e{}", bound / std::pow(10, exponent), exponent);
+    if (double read = 0; text.size() <= 8 && parse_number(text, read) && read == bound) return text;
+  }
+  return fmt::format("{}", bound);
 }
 
 void read_vector(const FieldInfo& field, vec3& out, std::string_view text) {
@@ -217,12 +230,12 @@ std::string field_domain(const FieldInfo& field) {
   std::string_view unit = field.type == FieldType::angle ? "degrees" : field.unit;
   std::string range;
   bool low = std::isfinite(field.minimum), high = std::isfinite(field.maximum);
+  auto bound = [&](double x) { return bound_text(x, field.type == FieldType::integer); };
+  if (low) range = fmt::format(" {} {}", field.above_minimum ? "above" : "from", bound(field.minimum));
   if (low && high)
-    range = fmt::format(" from {} to {}", field.minimum, field.maximum);
-  else if (low)
-    range = fmt::format(" from {}", field.minimum);
+    range += fmt::format("{} {}", field.above_minimum ? " and at most" : " to", bound(field.maximum));
   else if (high)
-    range = fmt::format(" up to {}", field.maximum);
+    range = fmt::format(" of at most {}", bound(field.maximum));
   return fmt::format("{}{}{}{}", what, range, unit.empty() ? "" : ", in ", unit);
 }
 

@@ -37,7 +37,8 @@ struct FieldInfo {
   std::string_view help;
   Invalidates invalidates = Invalidates::image;
   std::span<const std::string_view> choices = {};
-  bool logarithmic = false; ///< a slider should be logarithmic
+  bool logarithmic = false;   ///< a slider should be logarithmic
+  bool above_minimum = false; ///< the minimum itself does not fit
 };
 
 template <class Owner>
@@ -60,7 +61,7 @@ std::string field_problem(const FieldInfo& field, const void* address);
 bool field_equal(const FieldInfo& field, const void* a, const void* b);
 void field_copy(const FieldInfo& field, void* to, const void* from);
 
-/// "real in [0, inf), 1/m" for documentation.
+/// "a number from 0 to 1e9, in scene units" for documentation and messages.
 std::string field_domain(const FieldInfo& field);
 
 /// The name that is nearest to a mistyped one, for "did you mean"; empty if nothing is near.

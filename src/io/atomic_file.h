@@ -11,10 +11,18 @@ namespace candela {
 /// Replaces (or makes) the file at `path`: the bytes go to a temporary name in the same folder, are flushed
 /// to the disk, and the name is changed, so that nobody ever sees a part of them, whatever happens. The
 /// permissions of a file that is replaced are kept; a symbolic link's target is replaced, not the link; what
-/// is no regular file (/dev/stdout, a pipe) is written to directly. On failure the temporary file is removed,
-/// an old file is as it was, and output_error is thrown.
+/// is no regular file (a pipe, a device) and open descriptors (/dev/stdout) are written to directly, as is a
+/// file that is mounted by itself (as containers do), which has no other name to take. On failure the
+/// temporary file is removed, an old file is as it was, and output_error is thrown.
 void write_file_atomically(const std::string& path, std::span<const std::uint8_t> bytes);
 void write_file_atomically(const std::string& path, std::string_view text);
+
+/// Throws the output_error with which write_file_atomically() would end at `path`, as far as that can be
+/// known beforehand: work of hours is not to end with a folder that was never there. Changes nothing.
+void check_writable(const std::string& path);
+
+/// Whether the path names an open descriptor, a pipe or a device, which can take several outputs in turn.
+bool is_stream(const std::string& path);
 
 /// Writes to the first of folder/stem.ending, folder/stem-2.ending, folder/stem-3.ending … that does not
 /// exist, and never to one that does, even if other programs do the same at this moment. `ending` has its

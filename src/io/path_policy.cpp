@@ -77,10 +77,10 @@ std::optional<FoundFile> PathPolicy::find(const std::string& reference, const st
 FoundFile PathPolicy::require(const std::string& reference, const std::string& base_folder,
                               const Location& where, std::string_view element) const {
   if (auto found = find(reference, base_folder, where, element)) return *found;
-  throw input_error(
-      where, element, fmt::format("there is no file '{}'", reference),
-      fmt::format("put it into {}, or correct the name",
-                  (fs::path(base_folder) / reference).lexically_normal().parent_path().string()));
+  const fs::path folder = (fs::path(base_folder) / reference).lexically_normal().parent_path();
+  throw input_error(where, element, fmt::format("there is no file '{}'", reference),
+                    fmt::format("put it into {}, or correct the name",
+                                folder.empty() ? "the current folder" : folder.string()));
 }
 
 } // namespace candela

@@ -120,6 +120,7 @@ DisplayTransform display_transform(std::span<const vec3> linear, int width, int 
   DisplayTransform transform;
   transform.tone = display;
   transform.tone.auto_exposure = false;
+  transform.tone.dither = display.dither && view == View::radiance;
   if (shows_false_color(display, view)) {
     transform.false_color = scale_of(linear, display, view);
   } else if (display.auto_exposure && view == View::radiance) {
@@ -133,9 +134,9 @@ DisplayTransform display_transform(std::span<const vec3> linear, int width, int 
   return transform;
 }
 
-void display_rgb8(std::span<const vec3> linear, const DisplayTransform& transform,
+void display_rgb8(std::span<const vec3> linear, PictureRows rows, const DisplayTransform& transform,
                   std::span<std::uint8_t> rgb) {
-  if (!transform.false_color) return tone_map_rgb8(linear, transform.tone, rgb);
+  if (!transform.false_color) return tone_map_rgb8(linear, rows, transform.tone, rgb);
   assert(rgb.size() >= 3 * linear.size());
   const ColorTable table(*transform.false_color);
   for (std::size_t i = 0; i < linear.size(); ++i) {
@@ -144,9 +145,9 @@ void display_rgb8(std::span<const vec3> linear, const DisplayTransform& transfor
   }
 }
 
-void display_rgba8(std::span<const vec3> linear, const DisplayTransform& transform,
+void display_rgba8(std::span<const vec3> linear, PictureRows rows, const DisplayTransform& transform,
                    std::span<std::uint8_t> rgba) {
-  if (!transform.false_color) return tone_map_rgba8(linear, transform.tone, rgba);
+  if (!transform.false_color) return tone_map_rgba8(linear, rows, transform.tone, rgba);
   assert(rgba.size() >= 4 * linear.size());
   const ColorTable table(*transform.false_color);
   for (std::size_t i = 0; i < linear.size(); ++i) {

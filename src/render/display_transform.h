@@ -26,7 +26,7 @@ struct FalseColorScale {
 };
 
 struct DisplayTransform {
-  DisplaySettings tone;         ///< its exposure is the whole one, auto_exposure is off
+  DisplaySettings tone;         ///< its exposure is the whole one, auto_exposure is off, dither as it applies
   float automatic_exposure = 0; ///< stops; that part of tone.exposure that was found from the picture
   std::optional<FalseColorScale> false_color; ///< in place of the tone map
   bool operator==(const DisplayTransform&) const = default;
@@ -37,15 +37,15 @@ struct DisplayTransform {
 /// of surfaces or a share is encoded as it is. The range of the false colours, where the settings leave it
 /// open, is that between the 1st and the 99th percentile of a depth, from 0 to the 99th of a cost, from 0 to
 /// the largest count, [0, 1] of a share, and at most six decades, in equal steps of the logarithm, of
-/// radiance and variance.
+/// radiance and variance. Only radiance is dithered: colours that stand for numbers are to be exact.
 DisplayTransform display_transform(std::span<const vec3> linear, int width, int height,
                                    const DisplaySettings& display, View view, float display_scale);
 
-/// Every pixel to 8-bit sRGB. The output has 3 (4) bytes a pixel, alpha is 255. Callable for parts of a
-/// picture from several threads. False colours are of the luminance.
-void display_rgb8(std::span<const vec3> linear, const DisplayTransform& transform,
+/// Every pixel to 8-bit sRGB. The output has 3 (4) bytes a pixel, alpha is 255. False colours are of the
+/// luminance.
+void display_rgb8(std::span<const vec3> linear, PictureRows rows, const DisplayTransform& transform,
                   std::span<std::uint8_t> rgb);
-void display_rgba8(std::span<const vec3> linear, const DisplayTransform& transform,
+void display_rgba8(std::span<const vec3> linear, PictureRows rows, const DisplayTransform& transform,
                    std::span<std::uint8_t> rgba);
 
 /// The unit of the view's values; "" where they have none.

@@ -78,8 +78,8 @@ private:
 
 } // namespace
 
-FeatureFilm::FeatureFilm(int width, int height)
-    : width_(width), height_(height),
+FeatureFilm::FeatureFilm(int width, int height, ivec2 origin)
+    : width_(width), height_(height), origin_(origin),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
 void FeatureFilm::resolve(NoisyImage& albedo, NoisyImage& normal, NoisyImage& position) const {
@@ -123,7 +123,7 @@ bool render_features(const RenderScene& scene, const Document& document, std::ui
           film.pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width_) +
                        static_cast<std::size_t>(x)];
       for (std::uint32_t i = film.spp_; i < spp; ++i) {
-        const PixelRay start = rays.start(uvec2(x, y), i, sampler);
+        const PixelRay start = rays.start(uvec2(film.origin_ + ivec2(x, y)), i, sampler);
         const Features f = tracer.trace(start.ray, sampler);
         const vec3* groups[] = {&f.albedo, &f.normal, &f.position};
         for (std::size_t k = 0; k < FeatureFilm::kChannels; ++k) {

@@ -10,7 +10,8 @@ namespace candela {
 class FeatureFilm {
 public:
   FeatureFilm() = default;
-  FeatureFilm(int width, int height);
+  /// Of a window of the frame that begins at `origin`, as the Film's.
+  FeatureFilm(int width, int height, ivec2 origin = ivec2(0));
 
   /// Samples a pixel so far.
   std::uint32_t spp() const { return spp_; }
@@ -28,11 +29,12 @@ private:
   };
 
   int width_ = 0, height_ = 0;
+  ivec2 origin_{0};
   std::uint32_t spp_ = 0;
   std::vector<Pixel> pixels_;
 };
 
-/// Adds samples until the film, which has the document's size, has `spp` a pixel: of the (pixel, sample)
+/// Adds samples until the film, which is of the document's frame, has `spp` a pixel: of the (pixel, sample)
 /// camera rays that render_pass() traces, through mirrors and smooth glass the way that the image's paths go.
 /// The same for any number of threads. Polls `stop` between pixels: false, and a film of no use, where it was
 /// set.

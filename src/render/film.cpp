@@ -4,8 +4,8 @@
 
 namespace candela {
 
-Film::Film(int width, int height)
-    : width_(width), height_(height),
+Film::Film(int width, int height, ivec2 origin)
+    : width_(width), height_(height), origin_(origin),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
 void Film::resize(int width, int height) {

@@ -9,7 +9,9 @@ namespace candela {
 class Film {
 public:
   Film() = default;
-  Film(int width, int height);
+  /// Of a window of the frame that begins at `origin`; the coordinates of pixels count from there. A film of
+  /// a part costs what the part costs.
+  Film(int width, int height, ivec2 origin = ivec2(0));
 
   /// Another size. What pixels hold afterwards is of no meaning until clear(); the memory is kept.
   void resize(int width, int height);
@@ -19,6 +21,7 @@ public:
 
   int width() const { return width_; }
   int height() const { return height_; }
+  ivec2 origin() const { return origin_; }
 
   void add(int x, int y, vec3 radiance) {
     Pixel& p = pixel(x, y);
@@ -69,6 +72,7 @@ private:
   }
 
   int width_ = 0, height_ = 0;
+  ivec2 origin_{0};
   std::vector<Pixel> pixels_;
 };
 

@@ -211,10 +211,12 @@ struct Window {
   int x0, y0, x1, y1;
 };
 
+/// The pixels of the frame, of which the film may hold a part.
 Window clip(const CropWindow& crop, const Film& film) {
-  if (crop.width <= 0 || crop.height <= 0) return {0, 0, film.width(), film.height()};
-  return {std::max(crop.x, 0), std::max(crop.y, 0), std::min(crop.x + crop.width, film.width()),
-          std::min(crop.y + crop.height, film.height())};
+  const ivec2 lo = film.origin(), hi = lo + ivec2(film.width(), film.height());
+  if (crop.width <= 0 || crop.height <= 0) return {lo.x, lo.y, hi.x, hi.y};
+  return {std::max(crop.x, lo.x), std::max(crop.y, lo.y), std::min(crop.x + crop.width, hi.x),
+          std::min(crop.y + crop.height, hi.y)};
 }
 
 /// What a pass needs at every tile.
@@ -240,8 +242,8 @@ public:
 
   /// Unless the pixel has this sample.
   void push(const SampleIndex& index, PassResult& result) {
-    const int x = static_cast<int>(index.pixel.x), y = static_cast<int>(index.pixel.y);
-    if (job_.film.tried(x, y) > index.sample) return;
+    const ivec2 at = ivec2(index.pixel) - job_.film.origin();
+    if (job_.film.tried(at.x, at.y) > index.sample) return;
     indices_.push_back(index);
     if (indices_.size() == kSize) flush(result);
   }
@@ -258,7 +260,8 @@ public:
 
 private:
   void add(const SampleIndex& index, const PixelSample& s, PassResult& result) {
-    int x = static_cast<int>(index.pixel.x), y = static_cast<int>(index.pixel.y);
+    const ivec2 at = ivec2(index.pixel) - job_.film.origin();
+    const int x = at.x, y = at.y;
     if (is_finite(s.value)) {
       job_.film.add(x, y, s.value);
       const vec3 parts[3] = {s.parts.emitted, s.parts.direct, s.parts.indirect()};
@@ -294,9 +297,10 @@ void sample_window(SampleQueue& queue, const Window& window, std::uint32_t begin
 
 /// Whether the block is as good as the settings ask for.
 bool block_converged(const Film& film, const Window& block, float error) {
+  const ivec2 origin = film.origin();
   double sum = 0;
   for (int y = block.y0; y < block.y1; ++y)
-    for (int x = block.x0; x < block.x1; ++x) sum += film.relative_variance(x, y);
+    for (int x = block.x0; x < block.x1; ++x) sum += film.relative_variance(x - origin.x, y - origin.y);
   return sum <= static_cast<double>(error) * static_cast<double>(error) *
                     ((block.x1 - block.x0) * (block.y1 - block.y0));
 }
@@ -306,7 +310,8 @@ bool block_converged(const Film& film, const Window& block, float error) {
 /// Returns whether the block has stopped.
 bool sample_adaptively(SampleQueue& queue, const Window& block, const PassJob& job, PassResult& result) {
   const AdaptiveSettings& adaptive = job.document.settings.adaptive;
-  if (job.film.stopped(block.x0, block.y0)) return true;
+  const ivec2 origin = job.film.origin();
+  if (job.film.stopped(block.x0 - origin.x, block.y0 - origin.y)) return true;
   auto every = static_cast<std::uint32_t>(adaptive.min_spp);
   for (std::uint32_t i = job.range.begin; i < job.range.end;) {
     std::uint32_t check = (i / every + 1) * every, end = std::min(check, job.range.end);
@@ -314,10 +319,10 @@ bool sample_adaptively(SampleQueue& queue, const Window& block, const PassJob& j
     if (queue.stopped()) return false;
     i = end;
     // Where the block has more, an earlier pass that ended early has asked.
-    const bool asks = i == check && job.film.tried(block.x0, block.y0) == check;
+    const bool asks = i == check && job.film.tried(block.x0 - origin.x, block.y0 - origin.y) == check;
     if (asks && block_converged(job.film, block, adaptive.error)) {
       for (int y = block.y0; y < block.y1; ++y)
-        for (int x = block.x0; x < block.x1; ++x) job.film.stop(x, y);
+        for (int x = block.x0; x < block.x1; ++x) job.film.stop(x - origin.x, y - origin.y);
       return true;
     }
   }
@@ -343,7 +348,7 @@ void render_tile(SampleQueue& queue, const Window& tile, const PassJob& job, Pas
 PassResult render_pass(const RenderScene& scene, const Document& document, const SampleRange& range,
                        Film& film, const StopCondition& stop, const PassOptions& options) {
   Window window = clip(options.crop, film);
-  // The grid of tiles is the film's, whatever window of it is rendered.
+  // The grid of tiles is the frame's, whatever window of it is rendered.
   int first_column = window.x0 / kTileSize, first_row = window.y0 / kTileSize;
   int columns = (window.x1 + kTileSize - 1) / kTileSize - first_column;
   int rows = (window.y1 + kTileSize - 1) / kTileSize - first_row;

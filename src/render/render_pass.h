@@ -19,7 +19,7 @@ struct SampleRange {
   int skip_lattice = 0; ///< ... but not both of this one; 0: skip none
 };
 
-struct CropWindow { ///< pixels; empty width or height: the whole film
+struct CropWindow { ///< pixels of the frame; empty width or height: the whole film
   int x = 0, y = 0, width = 0, height = 0;
   bool operator==(const CropWindow&) const = default;
 };
@@ -27,8 +27,8 @@ struct CropWindow { ///< pixels; empty width or height: the whole film
 struct PassOptions {
   int threads = 0; ///< 0: every core
   CropWindow crop;
-  /// Films of the film's size for the emitted, the direct and the indirect part of the same samples; null:
-  /// none.
+  /// Films of the film's size and origin for the emitted, the direct and the indirect part of the same
+  /// samples; null: none.
   std::array<Film*, 3> components{};
 };
 

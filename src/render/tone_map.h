@@ -28,14 +28,27 @@ vec3 tone_mapped(vec3 linear, const DisplaySettings& display);
 /// limit is white. A histogram marks it.
 float white_level(const DisplaySettings& display);
 
+/// Pixels row by row, of rows of `width`; `origin` is where the first one lies in the frame that they are a
+/// part of. The dither depends on it.
+struct PictureRows {
+  int width = 1;
+  ivec2 origin{0};
+};
+
 /// round(255 s) with s the sRGB encoding (IEC 61966-2-1) of x clipped to [0, 1]: the correctly rounded result
 /// for every float, by one table look-up. NaN gives 0.
 std::uint8_t srgb8_from_linear(float x);
 
 /// tone_mapped, then srgb8_from_linear, for every pixel. The output has 3 (4) bytes a pixel, alpha is 255.
-/// Callable for parts of a picture from several threads.
-void tone_map_rgb8(std::span<const vec3> linear, const DisplaySettings& display, std::span<std::uint8_t> rgb);
-void tone_map_rgba8(std::span<const vec3> linear, const DisplaySettings& display,
+///
+/// With display.dither the code is floor(255 s + u) instead, with a u that is spread evenly over (0, 1) from
+/// pixel to pixel: the mean over pixels of one value is that value, where rounding would make bands of a
+/// gradient. What is exactly a code (black, white, a flat area of 8 bits) stays that code, and no code is
+/// more than one from the rounded one. u is the same for a pixel's three channels, so that greys stay grey,
+/// and a function of its place alone, so that the bits are the same every time.
+void tone_map_rgb8(std::span<const vec3> linear, PictureRows rows, const DisplaySettings& display,
+                   std::span<std::uint8_t> rgb);
+void tone_map_rgba8(std::span<const vec3> linear, PictureRows rows, const DisplaySettings& display,
                     std::span<std::uint8_t> rgba);
 
 } // namespace candela

@@ -122,6 +122,7 @@ struct DisplaySettings {
   float false_color_max = 0; ///< value at their end; where it is not above the start, both are found
                              ///< from the picture
   bool denoise = false;
+  bool dither = true;
   bool operator==(const DisplaySettings&) const = default;
 };
 

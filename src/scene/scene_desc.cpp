@@ -124,15 +124,14 @@ constexpr std::string_view kShapeNames[] = {"mesh", "sphere",   "rectangle", "di
                                             "cube", "cylinder", "cone",      "torus"};
 static_assert(std::size(kShapeNames) == std::variant_size_v<Shape>);
 
-/// Lengths may be anything above 0; whether they are is shape_problem's to say, for a row's minimum is
-/// included.
+/// Lengths may be anything above 0.
 template <class S, auto Member>
 void* shape_member(Shape& shape) {
   return &(std::get<S>(shape).*Member);
 }
 template <class S, auto Member>
 constexpr Field<Shape> length_row(std::string_view key, std::string_view help) {
-  return {{key, FieldType::real, 0, kInf, "scene units", help, Invalidates::scene, {}, true},
+  return {{key, FieldType::real, 0, kInf, "scene units", help, Invalidates::scene, {}, true, true},
           shape_member<S, Member>};
 }
 template <class S, auto Member>

@@ -250,6 +250,11 @@ const Field<Document> kTable[] = {
     {{"display.denoise", FieldType::boolean, 0, 0, "",
       "Shows and writes the picture denoised, under that name (denoising biases)", Invalidates::display},
      AT(settings.display.denoise)},
+    {{"display.dither", FieldType::boolean, 0, 0, "",
+      "Spreads the rounding to 8 bits over the pixels, so that gradients have no bands; the same bits every "
+      "time, at most one step from the rounded ones. Not for views that are data, nor for EXR, HDR and PFM",
+      Invalidates::display},
+     AT(settings.display.dither)},
 };
 
 #undef AT

@@ -18,21 +18,20 @@ double seconds_since(Clock::time_point start) {
 /// Side of the coarsest blocks of a first pass that may run out of time; a power of two.
 constexpr int kCoarsest = 32;
 
-/// Pixels of the window without samples get the value of one that stands for a block around them, where there
-/// is one. Returns their share.
-double fill_missing(OfflineResult& result, CropWindow window) {
+/// Pixels without samples get the value of one that stands for a block around them, where there is one.
+/// Returns their share.
+double fill_missing(OfflineResult& result) {
   Film& film = result.film;
-  if (window.width <= 0 || window.height <= 0) window = {0, 0, film.width(), film.height()};
+  const ivec2 origin = film.origin();
   // Beforehand, for what is filled in stands for nothing.
   std::vector<std::pair<ivec2, std::optional<ivec2>>> holes;
-  for (int y = window.y; y < window.y + window.height; ++y)
-    for (int x = window.x; x < window.x + window.width; ++x) {
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x) {
       if (film.tried(x, y) > 0) continue;
       auto& hole = holes.emplace_back(ivec2(x, y), std::nullopt);
       for (int side = 2; side <= kCoarsest && !hole.second; side *= 2) {
-        const ivec2 other(x - x % side, y - y % side);
-        if (other.x >= window.x && other.y >= window.y && film.count(other.x, other.y) > 0)
-          hole.second = other;
+        const ivec2 at = origin + ivec2(x, y), other = at - at % side - origin; // the grid is the frame's
+        if (other.x >= 0 && other.y >= 0 && film.count(other.x, other.y) > 0) hole.second = other;
       }
     }
   for (const auto& [hole, other] : holes) {
@@ -41,7 +40,17 @@ double fill_missing(OfflineResult& result, CropWindow window) {
     for (Film& part : result.components)
       if (part.width() > 0) part.add(hole.x, hole.y, part.mean(other->x, other->y));
   }
-  return static_cast<double>(holes.size()) / (static_cast<double>(window.width) * window.height);
+  return static_cast<double>(holes.size()) / (static_cast<double>(film.width()) * film.height());
+}
+
+/// Of the window alone, so that a part of a huge picture costs no more than the part.
+Film film_of(const FilmSettings& frame, const CropWindow& crop) {
+  if (crop.width <= 0 || crop.height <= 0) return {frame.width, frame.height};
+  const ivec2 lo = glm::max(ivec2(crop.x, crop.y), 0);
+  const ivec2 hi =
+      glm::min(ivec2(crop.x + crop.width, crop.y + crop.height), ivec2(frame.width, frame.height));
+  const ivec2 size = glm::max(hi - lo, 0);
+  return {size.x, size.y, lo};
 }
 
 } // namespace
@@ -61,12 +70,12 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
   result.scene = scene;
   result.scene_bytes = scene->memory_bytes();
   result.display_scale = display_scale(*scene, document.settings);
-  result.film = Film(document.settings.film.width, document.settings.film.height);
+  result.film = film_of(document.settings.film, options.pass.crop);
 
   PassOptions pass_options = options.pass;
   if (options.components)
     for (std::size_t i = 0; i < result.components.size(); ++i) {
-      result.components[i] = Film(document.settings.film.width, document.settings.film.height);
+      result.components[i] = film_of(document.settings.film, options.pass.crop);
       pass_options.components[i] = &result.components[i];
     }
 
@@ -119,7 +128,7 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
     else if (taken > 0.5 && portion > 1)
       portion /= 2;
   }
-  if (result.spp == 0) result.missing = fill_missing(result, options.pass.crop);
+  if (result.spp == 0) result.missing = fill_missing(result);
   result.noise = std::sqrt(estimated_relmse(result.film));
   return result;
 }

@@ -25,9 +25,9 @@ struct OfflineOptions {
 
 struct OfflineResult {
   std::shared_ptr<const RenderScene> scene; ///< what was rendered
-  Film film;
-  std::array<Film, 3> components; ///< emitted, direct, indirect, where asked for
-  int spp = 0;                    ///< complete passes
+  Film film;                                ///< of the crop window alone, where there is one
+  std::array<Film, 3> components;           ///< emitted, direct, indirect, where asked for
+  int spp = 0;                              ///< complete passes
   double build_seconds = 0;
   double render_seconds = 0;
   RayCounts rays;

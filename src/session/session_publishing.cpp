@@ -11,7 +11,7 @@ namespace {
 void tone_map_blocks(std::span<const vec3> linear, int width, int block, const DisplayTransform& transform,
                      std::span<std::uint8_t> rgba) {
   if (block == 1) {
-    display_rgba8(linear, transform, rgba);
+    display_rgba8(linear, {width}, transform, rgba);
     return;
   }
   const auto columns = static_cast<std::size_t>(width), side = static_cast<std::size_t>(block);
@@ -20,7 +20,7 @@ void tone_map_blocks(std::span<const vec3> linear, int width, int block, const D
   for (std::size_t y = 0; y < rows; y += side)
     for (std::size_t x = 0; x < columns; x += side) corners.push_back(linear[y * columns + x]);
   std::vector<std::uint8_t> mapped(4 * corners.size());
-  display_rgba8(corners, transform, mapped);
+  display_rgba8(corners, {(width + block - 1) / block}, transform, mapped);
   const std::uint8_t* from = mapped.data();
   for (std::size_t y = 0; y < rows; y += side) {
     const auto row = rgba.begin() + static_cast<std::ptrdiff_t>(4 * y * columns);

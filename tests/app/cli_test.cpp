@@ -1,9 +1,8 @@
-// The program as its users start it: exit codes, what goes to stdout and stderr, and the files that it
-// leaves.
+// The program's commands, as users start them.
 
+#include "app/program.h"
 #include "io/image_file.h"
 #include "scene/document.h"
-#include "support/scratch_folder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -31,26 +30,8 @@ bool catches(pid_t process, int signal) {
   return false;
 }
 
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
-class CliTest : public testing::Test {
-protected:
-  test::ScratchFolder scratch;
-  std::string scene = std::string(CANDELA_TEST_SOURCE_DIR) + "/scenes/cornell_box.json";
-
-  std::string path(const std::string& name) { return scratch / name; }
-  /// `arguments` as for a shell, run in the scratch folder.
-  Outcome run(const std::string& arguments, const std::string& environment = "") {
-    std::string command = fmt::format("cd '{}' && {} '{}' {} >out.txt 2>err.txt", scratch.path(), environment,
-                                      CANDELA_PROGRAM, arguments);
-    int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(path("out.txt")),
-            file_text(path("err.txt"))};
-  }
-};
+using test::Outcome;
+using CliTest = test::ProgramTest;
 
 TEST_F(CliTest, LooksThroughABookmark) {
   std::ofstream(path("views.json")) << R"({"candela": 1, "lights": [{"type": "constant"}],

@@ -232,7 +232,7 @@ TEST(ViewerDisplayUi, AutomaticExposureAndFalseColoursAreThoseOfFiles) {
     std::vector<std::uint8_t> rgba(4 * image.pixels.size());
     const DisplayTransform transform = display_transform(image.pixels, image.width, image.height,
                                                          document.settings.display, view, file.display_scale);
-    display_rgba8(image.pixels, transform, rgba);
+    display_rgba8(image.pixels, {image.width}, transform, rgba);
     EXPECT_EQ(hand.state().picture->rgba, rgba);
     if (view == View::radiance) { EXPECT_NE(transform.automatic_exposure, 0); }
   }

@@ -159,4 +159,25 @@ TEST(Fields, NearestName) {
   EXPECT_EQ(nearest_name("abc", {}), "");
 }
 
+TEST(Fields, RangesReadWell) {
+  auto real = [](double lo, double hi) { return field_domain(info(FieldType::real, lo, hi)); };
+  EXPECT_EQ(real(0, 1e9), "a number from 0 to 1e9");
+  EXPECT_EQ(real(-2.5e6, 120), "a number from -2.5e6 to 120");
+  EXPECT_EQ(real(0.1, 123456), "a number from 0.1 to 123456");
+  EXPECT_EQ(real(0, INFINITY), "a number from 0");
+  EXPECT_EQ(real(-INFINITY, 7), "a number of at most 7");
+  EXPECT_EQ(real(-INFINITY, INFINITY), "a number");
+  EXPECT_EQ(field_domain(info(FieldType::integer, 0, 1e9)), "an integer from 0 to 1000000000")
+      << "1e9 is none";
+  FieldInfo length = info(FieldType::real, 0);
+  length.above_minimum = true;
+  EXPECT_EQ(field_domain(length), "a number above 0");
+  length.maximum = 5;
+  EXPECT_EQ(field_domain(length), "a number above 0 and at most 5");
+  float value = 1;
+  EXPECT_NE(refusal(length, value, "0").find("above 0"), std::string::npos);
+  field_from_text(length, &value, "1e-30");
+  EXPECT_EQ(value, 1e-30f);
+}
+
 } // namespace

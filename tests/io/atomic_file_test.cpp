@@ -1,17 +1,23 @@
 #include "core/error.h"
 #include "io/atomic_file.h"
+#include "support/exit_code.h"
 #include "support/scratch_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <csignal>
+#include <fcntl.h>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <set>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 
 namespace candela {
 namespace {
@@ -174,6 +180,90 @@ TEST(AtomicFile, UniqueNamesAreNotSharedByARace) {
 
   EXPECT_EQ(std::set(contents.begin(), contents.end()).size(), contents.size())
       << "one file overwrote another";
+}
+
+/// What check_writable() says of the path: done where it says nothing.
+ExitCode checked(const std::string& path) {
+  return test::code_of([&] { check_writable(path); });
+}
+
+TEST(CheckWritable, SaysBeforehandWhatWritingWouldSay) {
+  ScratchFolder folder;
+  write_file_atomically(folder / "file", "old");
+  fs::create_directory(folder / "sub");
+  fs::create_symlink("sub", folder / "to_folder");
+  fs::create_symlink("nowhere/x.png", folder / "to_missing_folder");
+  fs::create_symlink("loop", folder / "loop");
+  for (const std::string& path :
+       {folder / "no/x.png", folder / "sub", folder / "sub/", folder / "sub/.", folder / "to_folder",
+        folder / "to_missing_folder", folder / "loop", folder / "file/x.png", folder / "new/",
+        folder / std::string(256, 'n'), std::string(), std::string("/proc/x.png")}) {
+    EXPECT_EQ(checked(path), ExitCode::output) << path;
+    EXPECT_EQ(test::code_of([&] { write_file_atomically(path, "x"); }), ExitCode::output) << path;
+  }
+  fs::create_symlink("fresh", folder / "to_fresh");
+  const std::size_t before = entries(folder.path());
+  for (const std::string& path : {folder / "file", folder / "new", folder / "to_fresh", folder / "sub/x",
+                                  folder / std::string(255, 'n'), std::string("/dev/null")})
+    EXPECT_EQ(checked(path), ExitCode::done) << path;
+  EXPECT_EQ(entries(folder.path()), before) << "it leaves nothing";
+  EXPECT_EQ(test::read_text(folder / "file"), "old");
+}
+
+/// Runs in a child of another user, whom permissions bind: root may do anything. Its exit status.
+int as_nobody(const std::function<int()>& work) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const bool changed = ::geteuid() != 0 || (::setgid(65534) == 0 && ::setuid(65534) == 0);
+    ::_exit(changed ? work() : 77);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(CheckWritable, PermissionsAreLookedAt) {
+  ScratchFolder folder;
+  fs::permissions(folder.path(), fs::perms(0777));
+  fs::create_directory(folder / "closed");
+  fs::permissions(folder / "closed", fs::perms(0555));
+  write_file_atomically(folder / "readonly", "x");
+  fs::permissions(folder / "readonly", fs::perms(0444));
+  write_file_atomically(folder / "closed_file", "x");
+  fs::create_directory(folder / "shared"); // like /tmp: everybody may write, but not take others' names away
+  write_file_atomically(folder / "shared/others", "x");
+  fs::permissions(folder / "shared/others", fs::perms(0666));
+  fs::permissions(folder / "shared", fs::perms(01777));
+  const int refused = as_nobody([&] {
+    int count = 0;
+    for (const char* path : {"closed/x", "readonly", "shared/others"})
+      count += checked(folder / path) == ExitCode::output &&
+               test::code_of([&] { write_file_atomically(folder / path, "y"); }) == ExitCode::output;
+    return count + (checked(folder / "shared/mine") == ExitCode::done ? 10 : 0);
+  });
+  if (::geteuid() == 0) { EXPECT_EQ(refused, 13); } // else the files are our own
+  EXPECT_EQ(test::read_text(folder / "shared/others"), "x");
+}
+
+TEST(AtomicFile, DescriptorsAreWrittenToWhereTheyStand) {
+  ScratchFolder folder;
+  const std::string path = folder / "log";
+  write_file_atomically(path, "before\n");
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  ASSERT_GE(descriptor, 0);
+  fs::create_symlink(fmt::format("/proc/self/fd/{}", descriptor), folder / "link");
+  for (const std::string& name : {fmt::format("/dev/fd/{}", descriptor),
+                                  fmt::format("/proc/self/fd/{}", descriptor), folder / "link"}) {
+    EXPECT_EQ(checked(name), ExitCode::done);
+    EXPECT_TRUE(is_stream(name));
+    write_file_atomically(name, "line\n");
+  }
+  ::close(descriptor);
+  EXPECT_EQ(test::read_text(path), "before\nline\nline\nline\n") << "neither replaced nor overwritten";
+  EXPECT_EQ(checked(fmt::format("/dev/fd/{}", descriptor)), ExitCode::output) << "it is closed";
+  const int reading = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  EXPECT_EQ(checked(fmt::format("/dev/fd/{}", reading)), ExitCode::output);
+  ::close(reading);
 }
 
 } // namespace

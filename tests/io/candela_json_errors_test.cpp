@@ -169,7 +169,7 @@ const JsonError kErrors[] = {
      "\"pixels\": [1,-1,1]}}]}",
      "s.json:1:99: lights[0].image.pixels: ", "negative"},
     {"SphereRadius", "{\"candela\": 1, \"instances\": [{\"shape\": \"sphere\", \"radius\": 0}]}",
-     "s.json:1:60: instances[0].radius: ", "positive"},
+     "s.json:1:60: instances[0].radius: ", "above 0"},
     {"MaterialName",
      "{\"candela\": 1, \"materials\": [{\"name\": \"red\"}], \"instances\": [{\"shape\": \"disc\", "
      "\"material\": \"rod\"}]}",

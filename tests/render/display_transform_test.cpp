@@ -68,7 +68,8 @@ TEST(DisplayTransform, ExposuresAdd) {
   EXPECT_EQ(transform_of(linear, 4, display, View::albedo).tone.exposure, 0) << "a reflectance is no light";
   std::vector<std::uint8_t> rgb(3 * linear.size());
   display.exposure = 0;
-  display_rgb8(linear, transform_of(linear, 4, display, View::radiance), rgb);
+  display.dither = false;
+  display_rgb8(linear, {4}, transform_of(linear, 4, display, View::radiance), rgb);
   EXPECT_EQ(rgb[0], srgb8_from_linear(0.18f));
 }
 
@@ -141,8 +142,8 @@ TEST(FalseColor, MapsItsEndsToTheEndsOfTheColours) {
   const std::vector<vec3> linear = {vec3(1), vec3(3), vec3(2), vec3(-5), vec3(9), vec3(std::nanf("")),
                                     vec3(0)};
   std::vector<std::uint8_t> rgb(3 * linear.size()), rgba(4 * linear.size());
-  display_rgb8(linear, transform, rgb);
-  display_rgba8(linear, transform, rgba);
+  display_rgb8(linear, {7}, transform, rgb);
+  display_rgba8(linear, {7}, transform, rgba);
   auto color = [&](std::size_t i) { return std::array{rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]}; };
   EXPECT_EQ(color(0), map_color(ColorMap::viridis, 0));
   EXPECT_EQ(color(1), map_color(ColorMap::viridis, 1));

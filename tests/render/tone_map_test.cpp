@@ -25,6 +25,7 @@ DisplaySettings display_of(ToneMap kind, float exposure = 0, float white = 4) {
   d.tone_map = kind;
   d.exposure = exposure;
   d.white_point = white;
+  d.dither = false;
   return d;
 }
 
@@ -184,7 +185,7 @@ TEST(ToneMap, NonFiniteAndExtremeValuesAreBlackOrWhite) {
         if (kind != ToneMap::aces) // which mixes the channels
           in.emplace_back(std::nanf(""), kInfinity, -1);
         std::vector<std::uint8_t> out(3 * in.size());
-        tone_map_rgb8(in, display, out);
+        tone_map_rgb8(in, {1}, display, out);
         std::vector<std::uint8_t> expected = {0,   0, 0, 255, 255, 255, 0, 0, 0,   255, 255,
                                               255, 0, 0, 0,   0,   0,   0, 0, 255, 0};
         expected.resize(out.size());
@@ -202,8 +203,8 @@ TEST(ToneMap, PicturesAreMappedPixelByPixel) {
     for (ToneMap kind : kAll) {
       DisplaySettings display = display_of(kind, 0.5f, 3);
       std::vector<std::uint8_t> rgb(3 * count), rgba(4 * count);
-      tone_map_rgb8(in, display, rgb);
-      tone_map_rgba8(in, display, rgba);
+      tone_map_rgb8(in, {100}, display, rgb);
+      tone_map_rgba8(in, {100}, display, rgba);
       for (std::size_t i = 0; i < count; ++i) {
         vec3 mapped = tone_mapped(in[i], display);
         for (std::size_t c = 0; c < 3; ++c) {

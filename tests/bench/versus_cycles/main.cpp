@@ -116,7 +116,7 @@ void print_means(const MeansReport& means) {
 
 void write_png(const Image& image, const DisplayTransform& transform, const std::string& path) {
   std::vector<std::uint8_t> rgb(3 * image.pixels.size());
-  display_rgb8(image.pixels, transform, rgb);
+  display_rgb8(image.pixels, {image.width}, transform, rgb);
   write_srgb8_image(image.width, image.height, rgb, path);
 }
 
