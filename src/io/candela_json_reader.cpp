@@ -150,7 +150,8 @@ private:
   }
 
   void materials(JsonValue array) {
-    auto known = keys_of(material_fields(), {"name", "diffuse_texture"});
+    auto known =
+        keys_of(material_fields(), {"name", "diffuse_texture", "diffuse_uv_scale", "diffuse_uv_offset"});
     each_object(array, "materials", [&](JsonValue object, const std::string& element) {
       Material material;
       for (auto [key, value] : object.members()) {
@@ -159,6 +160,10 @@ private:
           material.name = read_string(value, name);
         else if (key.string() == "diffuse_texture")
           material.diffuse_texture = texture_of(value, name);
+        else if (key.string() == "diffuse_uv_scale")
+          material.diffuse_uv.scale = read_vec2(value, name);
+        else if (key.string() == "diffuse_uv_offset")
+          material.diffuse_uv.offset = read_vec2(value, name);
         else if (!read_row(material_fields(), material, key, value, element))
           throw unknown_key(key, element, known);
       }
@@ -234,8 +239,9 @@ private:
     };
     Instance out;
     if (const auto* name = part("name")) out.name = read_string(*name, element + ".name");
+    glm::dmat4 world_from_object(1);
     if (const auto* transform = part("transform"))
-      out.world_from_object = read_transform(*transform, element + ".transform");
+      world_from_object = read_transform(*transform, element + ".transform");
 
     bool names_mesh = part("mesh") || part("file");
     const auto* shape = part("shape");
@@ -259,6 +265,7 @@ private:
                         fmt::format("give one of {}", fmt::join(shape_names(), ", ")));
     }
     shape_values(out.shape, parts, object, element);
+    builder_.place(out, world_from_object, object.where());
     instance_materials(out, part("material"), part("materials"), file, object, element);
     document_.scene.instances.push_back(std::move(out));
   }

@@ -125,6 +125,11 @@ private:
       if (material.diffuse_texture >= 0)
         members.push_back(
             fmt::format("\"diffuse_texture\": {}", texture_reference(material.diffuse_texture)));
+      auto pair = [&](std::string_view key, vec2 v, vec2 standard) {
+        if (v != standard) members.push_back(fmt::format("\"{}\": [{}, {}]", key, v.x, v.y));
+      };
+      pair("diffuse_uv_scale", material.diffuse_uv.scale, UvTransform{}.scale);
+      pair("diffuse_uv_offset", material.diffuse_uv.offset, UvTransform{}.offset);
       out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
     }
     return out;
@@ -168,9 +173,10 @@ private:
         key = fmt::format("{}-{}", mesh.name.empty() ? "mesh" : mesh.name, i);
       mesh_keys_[&mesh] = key;
       std::string name = key == mesh.name ? "" : fmt::format("\"name\": {}, ", json_quoted(mesh.name));
-      if (auto path = path_below(folder_.string(), mesh.source))
+      if (auto path = path_below(folder_.string(), mesh.source)) {
+        by_reference_.insert(&mesh);
         out.push_back(fmt::format("{}: {{{}\"file\": {}}}", json_quoted(key), name, json_quoted(*path)));
-      else
+      } else
         out.push_back(
             fmt::format("{}: {{{}\n{}}}", json_quoted(key), name, json_mesh_members(mesh, "      ")));
     }
@@ -185,7 +191,8 @@ private:
       if (!instance.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(instance.name)));
       members.push_back(shape(instance.shape));
       members.push_back(materials_of(instance));
-      if (instance.world_from_object != mat4(1)) members.push_back(transform(instance.world_from_object));
+      if (const glm::dmat4 m = written_transform(instance); m != glm::dmat4(1))
+        members.push_back(transform(m));
       out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
     }
     return out;
@@ -225,10 +232,23 @@ private:
     return fmt::format("\"materials\": {}{}{}", named ? "{" : "[", joined(items, ", "), named ? "}" : "]");
   }
 
-  static std::string transform(const mat4& m) {
+  /// Takes the coordinates to the world that the reader will find: those of the file of a mesh that is
+  /// written by reference.
+  glm::dmat4 written_transform(const Instance& instance) const {
+    const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape);
+    const glm::dmat4 m(instance.world_from_object);
+    return mesh && by_reference_.contains(mesh->get()) ? glm::translate(m, -(*mesh)->origin) : m;
+  }
+
+  /// As floats where that is enough, which makes shorter texts.
+  static std::string transform(const glm::dmat4& m) {
     std::vector<std::string> numbers;
     for (int r = 0; r < 4; ++r)
-      for (int c = 0; c < 4; ++c) numbers.push_back(fmt::format("{}", m[c][r]));
+      for (int c = 0; c < 4; ++c) {
+        const auto narrow = static_cast<float>(m[c][r]);
+        numbers.push_back(static_cast<double>(narrow) == m[c][r] ? fmt::format("{}", narrow)
+                                                                 : fmt::format("{}", m[c][r]));
+      }
     return fmt::format("\"transform\": [{}]", joined(numbers, ", "));
   }
 
@@ -237,6 +257,7 @@ private:
   fs::path folder_;
   bool natural_textures_ = true;
   std::map<const Mesh*, std::string> mesh_keys_;
+  std::set<const Mesh*> by_reference_;
   std::map<std::string, int> name_count_;
 };
 

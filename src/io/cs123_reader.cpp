@@ -290,9 +290,8 @@ private:
     if (auto problem = transform_problem(m); !problem.empty())
       throw input_error(places_.element(node), "transblock", problem, "correct its transformations");
     Instance instance;
-    instance.world_from_object = mat4(m);
     if (kind == "mesh") {
-      mesh(node, instance);
+      mesh(node, instance, m);
     } else if (auto shape = cs123_shape(kind)) {
       instance.name = kind;
       instance.shape = shape->shape;
@@ -319,15 +318,19 @@ private:
     return known->second;
   }
 
-  void mesh(pugi::xml_node node, Instance& instance) {
+  void mesh(pugi::xml_node node, Instance& instance, const dmat4& m) {
     auto attribute = node.attribute("filename") ? node.attribute("filename") : node.attribute("file");
     if (!attribute)
       throw input_error(places_.element(node), "object", "a mesh without a file", "write filename=\"….obj\"");
     Location where = places_.attribute(attribute, node);
-    FoundFile found = builder_.policy().require(attribute.value(), folder_, where, "filename");
-    MeshFile& file = builder_.mesh_file(found, "", where, "filename");
+    // The course's scenes name absolute paths of the machines that they were made on.
+    auto found =
+        builder_.policy().find_exported(attribute.value(), folder_, where, "filename", builder_.warnings());
+    if (!found) found = builder_.policy().require(attribute.value(), folder_, where, "filename");
+    MeshFile& file = builder_.mesh_file(*found, "", where, "filename");
     instance.name = file.mesh->name;
     instance.shape = file.mesh;
+    builder_.place(instance, m, where);
     for (std::size_t slot = 0; slot < file.mesh->slot_names.size(); ++slot) {
       int material = builder_.imported_material(file, slot);
       if (material < 0) material = own_material(node, "mesh");

@@ -21,7 +21,7 @@ std::vector<Vec> read_vectors(JsonValue value, std::string_view element, const W
   for (JsonValue part : value) {
     warnings.check_stop();
     float v[N];
-    read_reals(part, v, element);
+    read_reals(part, std::span<float>(v), element);
     Vec vector;
     for (int i = 0; i < N; ++i) vector[i] = v[i];
     out.push_back(vector);

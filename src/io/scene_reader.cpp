@@ -20,6 +20,12 @@ Document read_obj_scene(const FoundFile& file, const PathPolicy& policy, Warning
   Instance instance;
   instance.name = mesh.mesh->name;
   instance.shape = mesh.mesh;
+  // The mesh is all that there is: nothing else has to keep its place beside it.
+  if (const glm::dvec3 origin = mesh.mesh->origin; origin != glm::dvec3(0))
+    warnings.add({file.shown},
+                 fmt::format("so far out floats cannot hold the shape: ({}, {}, {}) is taken for "
+                             "the origin",
+                             origin.x, origin.y, origin.z));
   for (std::size_t slot = 0; slot < mesh.mesh->slot_names.size(); ++slot) {
     int material = builder.imported_material(mesh, slot);
     if (material < 0) material = builder.missing_material(mesh, slot, {file.shown});

@@ -1,18 +1,66 @@
 #include "io/text_file.h"
 
 #include "io/file_bytes.h"
+#include "io/warning_list.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 
 namespace candela {
 
-std::string read_text_file(const std::string& path, const char* element, std::size_t max_bytes) {
-  std::string text = read_file_characters(path, element, max_bytes);
-  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
-  if (auto nul = text.find('\0'); nul != std::string::npos)
-    throw input_error(locate(path, text, nul), element, "a NUL byte: this is no text file",
-                      "give a text file in UTF-8");
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+/// So much is looked at between two looks at whether to go on.
+constexpr std::size_t kStride = std::size_t{16} << 20;
+
+/// Calls work(begin, end) for the pieces of [0, size).
+template <class Work>
+void in_pieces(std::size_t size, const WarningList* warnings, Work work) {
+  for (std::size_t begin = 0; begin < size; begin += kStride) {
+    if (warnings) warnings->check_stop();
+    work(begin, std::min(begin + kStride, size));
+  }
+}
+
+void drop_front(std::string& text, std::size_t count, const WarningList* warnings) {
+  const std::size_t left = text.size() - count;
+  in_pieces(left, warnings, [&](std::size_t begin, std::size_t end) {
+    std::memmove(text.data() + begin, text.data() + count + begin, end - begin);
+  });
+  text.resize(left);
+}
+
+void drop_end(std::string& text, const std::string& path, WarningList* warnings) {
+  auto is_filler = [](char c) { return c == '\0' || c == '\x1a'; };
+  std::size_t end = text.size();
+  while (end > 0 && is_filler(text[end - 1])) --end;
+  if (end < text.size() && warnings)
+    warnings->add({path}, fmt::format("{} bytes at the end that are no text are ignored", text.size() - end));
+  text.resize(end);
+  if (text.size() > kByteOrderMark.size() && text.ends_with(kByteOrderMark))
+    text.resize(text.size() - kByteOrderMark.size());
+}
+
+} // namespace
+
+std::string read_text_file(const std::string& path, const char* element, std::size_t max_bytes,
+                           WarningList* warnings) {
+  const Progress* progress = warnings ? &warnings->progress() : nullptr;
+  std::string text = read_file_characters(path, element, max_bytes, progress);
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw input_error({path, 1, 1}, element, "it is text in UTF-16", "save it as UTF-8");
+  drop_end(text, path, warnings);
+  if (text.starts_with(kByteOrderMark)) drop_front(text, kByteOrderMark.size(), warnings);
+  in_pieces(text.size(), warnings, [&](std::size_t begin, std::size_t end) {
+    if (const void* nul = std::memchr(text.data() + begin, 0, end - begin))
+      throw input_error(
+          locate(path, text, static_cast<std::size_t>(static_cast<const char*>(nul) - text.data())), element,
+          "a NUL byte: this is no text file", "give a text file in UTF-8");
+  });
   return text;
 }
 

@@ -28,6 +28,7 @@ public:
       : progress_(std::move(progress)) {}
   /// To be called wherever a reader may be for long; throws Cancelled.
   void check_stop() const { progress_->check(); }
+  const Progress& progress() const { return *progress_; }
   /// Counts a file that will be read, so that the share is of all that is known to come.
   void expect_file(const std::string& canonical);
   /// The part of the progress that is one file.

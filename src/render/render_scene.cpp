@@ -82,6 +82,7 @@ void RenderScene::add_materials(const Document& document) {
       s.bsdf = make_bsdf(m);
       if (m.diffuse_texture >= 0)
         s.diffuse_texture = textures_[static_cast<std::size_t>(m.diffuse_texture)].get();
+      s.diffuse_uv = m.diffuse_uv;
       s.absorbing = m.type == MaterialType::dielectric && !is_black(m.absorption);
       s.absorption = m.absorption;
     }
@@ -218,7 +219,8 @@ std::size_t RenderScene::memory_bytes() const {
 
 Bsdf evaluate_bsdf(const SurfaceMaterial& material, const Surface& surface) {
   Bsdf bsdf = material.bsdf;
-  vec3 texel = lookup_bilinear(*material.diffuse_texture, surface.uv);
+  vec3 texel = lookup_bilinear(*material.diffuse_texture,
+                               material.diffuse_uv.scale * surface.uv + material.diffuse_uv.offset);
   if (auto* d = std::get_if<Diffuse>(&bsdf))
     d->reflectance *= texel;
   else if (auto* p = std::get_if<Phong>(&bsdf))

@@ -13,6 +13,7 @@ namespace candela {
 struct SurfaceMaterial {
   Bsdf bsdf;
   const Texture* diffuse_texture = nullptr; ///< multiplies the BSDF's diffuse part; null: none
+  UvTransform diffuse_uv;                   ///< of that texture
   vec3 emission{0};                         ///< W/(m^2 sr)
   vec3 absorption{0};                       ///< sigma_a inside, 1/scene unit
   float opacity = 1;
