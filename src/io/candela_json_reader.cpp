@@ -67,6 +67,7 @@ private:
 
   /// Counts what will be read.
   void expect_files(JsonValue value) {
+    progress_.check();
     auto expect_named = [&](JsonValue name) {
       if (name.type() == JsonType::string) builder_.expect_file(name.string(), folder_);
     };
@@ -80,8 +81,10 @@ private:
           expect_files(part);
       }
     } else if (value.type() == JsonType::array) {
-      for (JsonValue part : value)
+      for (JsonValue part : value) {
+        progress_.check();
         if (part.type() == JsonType::object) expect_files(part);
+      }
     }
   }
 
@@ -386,7 +389,9 @@ private:
 
 Document read_candela_json(const FoundFile& file, const PathPolicy& policy, WarningList& warnings) {
   warnings.check_stop();
-  return CandelaReader(read_text_file(file.canonical, "scene", kMaxJsonBytes), file, policy, warnings).run();
+  return CandelaReader(read_text_file(file.canonical, "scene", kMaxJsonBytes, &warnings), file, policy,
+                       warnings)
+      .run();
 }
 
 Document parse_candela_json(std::string text, const std::string& shown, const PathPolicy& policy,

@@ -62,7 +62,7 @@ LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
   warnings.check_stop();
   LoadedScene loaded;
   if (lower_ending(path) == ".ini") {
-    IniJob job = read_ini_job(path, options.allow_outside);
+    IniJob job = read_ini_job(path, options.allow_outside, warnings);
     loaded.document = read_by_ending(job.scene, options, {path}, warnings);
     loaded.document.settings = job.settings;
     if (!job.output.empty()) loaded.output_files.push_back(job.output);

@@ -34,9 +34,13 @@ public:
   /// The part of the progress that is one file.
   ProgressPart part(const std::string& canonical, std::size_t bytes);
   void add(const Location& where, std::string_view text);
+  /// Those of another list.
+  void add(const WarningList& other);
   const std::vector<Warning>& warnings() const { return warnings_; }
 
 private:
+  void add(std::string key, const Warning& warning);
+
   std::shared_ptr<Progress> progress_;
   std::map<std::string, std::uint64_t> expected_; ///< bytes of files that were not read yet, by path
   std::vector<Warning> warnings_;
