@@ -191,8 +191,7 @@ private:
       if (!instance.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(instance.name)));
       members.push_back(shape(instance.shape));
       members.push_back(materials_of(instance));
-      if (const glm::dmat4 m = written_transform(instance); m != glm::dmat4(1))
-        members.push_back(transform(m));
+      if (std::string text = transform(instance); !text.empty()) members.push_back(std::move(text));
       out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
     }
     return out;
@@ -233,22 +232,20 @@ private:
   }
 
   /// Takes the coordinates to the world that the reader will find: those of the file of a mesh that is
-  /// written by reference.
-  glm::dmat4 written_transform(const Instance& instance) const {
+  /// written by reference. Where that is far from the mesh's own origin, floats would not do.
+  std::string transform(const Instance& instance) const {
+    const mat4& m = instance.world_from_object;
     const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape);
-    const glm::dmat4 m(instance.world_from_object);
-    return mesh && by_reference_.contains(mesh->get()) ? glm::translate(m, -(*mesh)->origin) : m;
+    if (mesh && by_reference_.contains(mesh->get()) && (*mesh)->origin != glm::dvec3(0))
+      return matrix(glm::translate(glm::dmat4(m), -(*mesh)->origin));
+    return m == mat4(1) ? "" : matrix(m);
   }
 
-  /// As floats where that is enough, which makes shorter texts.
-  static std::string transform(const glm::dmat4& m) {
+  template <class Matrix>
+  static std::string matrix(const Matrix& m) {
     std::vector<std::string> numbers;
     for (int r = 0; r < 4; ++r)
-      for (int c = 0; c < 4; ++c) {
-        const auto narrow = static_cast<float>(m[c][r]);
-        numbers.push_back(static_cast<double>(narrow) == m[c][r] ? fmt::format("{}", narrow)
-                                                                 : fmt::format("{}", m[c][r]));
-      }
+      for (int c = 0; c < 4; ++c) numbers.push_back(fmt::format("{}", m[c][r]));
     return fmt::format("\"transform\": [{}]", joined(numbers, ", "));
   }
 

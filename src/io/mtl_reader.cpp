@@ -117,7 +117,13 @@ bool conserve_energy(vec3& diffuse, vec3 specular) {
 
 void read_mtl(const FoundFile& file, const PathPolicy& policy, MtlDialect dialect, WarningList& warnings,
               MtlLibrary& library) {
-  std::string text = read_text_file(file.canonical, "material library", kMaxMtlBytes, &warnings);
+  std::string text;
+  try {
+    text = read_text_file(file.canonical, "material library", kMaxMtlBytes, &warnings);
+  } catch (const Error& problem) {
+    if (problem.code() != ExitCode::bad_input) throw;
+    return warnings.add({file.shown}, fmt::format("the material library is left out: {}", problem.what()));
+  }
   ProgressPart progress = warnings.part(file.canonical, text.size());
   TextLines lines(text, progress, kLinesShare);
   const std::vector<MtlStatements> materials = parse_mtl(lines, file.shown, warnings);

@@ -57,12 +57,7 @@ private:
     auto file = policy_.find_exported(std::string(name), folder_of(obj_.shown), where, "mtllib", warnings_);
     if (!file) return false;
     read_.insert(std::filesystem::path(file->shown).filename().string());
-    try {
-      read_mtl(*file, policy_, dialect_, warnings_, library);
-    } catch (const Error& problem) {
-      if (problem.code() != ExitCode::bad_input) throw;
-      warnings_.add(where, fmt::format("a material library is left out: {}", problem.what()));
-    }
+    read_mtl(*file, policy_, dialect_, warnings_, library);
     return true;
   }
 
