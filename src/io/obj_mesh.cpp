@@ -76,7 +76,7 @@ public:
     mesh_.material_slots.reserve(most_triangles_);
     each_face(part, [&](const ObjFace& face) { add(face); });
     if (mesh_.triangles.empty()) {
-      if (c_.first_loss) throw *c_.first_loss;
+      if (c_.first_loss && (c_.faces.empty() || lost_faces_)) throw *c_.first_loss;
       if (loss_) throw *loss_;
       throw input_error({file_}, "mesh", "it has no face", "export the model with faces");
     }
@@ -121,6 +121,7 @@ private:
 
   /// A face that cannot be made.
   void lose(const ObjFace& face) {
+    lost_faces_ = true;
     warnings_.add({file_, face.line, 0}, "faces that use vertices that are not there are dropped");
     for (int i = 0; i < face.count && !loss_; ++i)
       if (const int v = corner(face, i).v; static_cast<std::size_t>(v) >= c_.positions.size())
@@ -192,7 +193,7 @@ private:
   double share_; ///< of the progress, so far
   dvec3 lower_{std::numeric_limits<double>::infinity()}, upper_{-std::numeric_limits<double>::infinity()};
   std::size_t most_triangles_ = 0;
-  bool has_normals_ = false, has_uvs_ = false;
+  bool has_normals_ = false, has_uvs_ = false, lost_faces_ = false;
   std::optional<Error> loss_;
   CornerNumbers vertices_;
   std::vector<ObjCorner> corners_; ///< of the face at hand
@@ -204,8 +205,8 @@ private:
 } // namespace
 
 glm::dvec3 mesh_origin(dvec3 lower, dvec3 upper) {
-  // A float has 24 bits. At this many times its size from the origin, a mesh keeps 20 of them.
-  constexpr double kFar = 16;
+  // A float has 24 bits. At this many times its size from the origin, a mesh keeps 19 of them.
+  constexpr double kFar = 32;
   const dvec3 most = glm::max(glm::abs(lower), glm::abs(upper));
   const double far = std::max({most.x, most.y, most.z}), size = glm::length(upper - lower);
   if (far <= kFar * size || size == 0) return dvec3(0);

@@ -26,6 +26,42 @@ void in_pieces(std::size_t size, const WarningList* warnings, Work work) {
   }
 }
 
+void append_utf8(std::string& out, std::uint32_t c) {
+  auto follow = [&](int shift) { out += static_cast<char>(0x80 | (c >> shift & 0x3f)); };
+  if (c < 0x80) {
+    out += static_cast<char>(c);
+  } else if (c < 0x800) {
+    out += static_cast<char>(0xc0 | c >> 6), follow(0);
+  } else if (c < 0x10000) {
+    out += static_cast<char>(0xe0 | c >> 12), follow(6), follow(0);
+  } else {
+    out += static_cast<char>(0xf0 | c >> 18), follow(12), follow(6), follow(0);
+  }
+}
+
+/// Of a text that begins with the byte order mark of either order. Surrogates without their half become
+/// U+FFFD.
+std::string utf8_from_utf16(std::string_view text, const WarningList* warnings) {
+  const bool big_endian = text[0] == '\xfe';
+  auto unit = [&](std::size_t i) {
+    const auto a = static_cast<unsigned char>(text[i]), b = static_cast<unsigned char>(text[i + 1]);
+    return static_cast<std::uint32_t>(big_endian ? a << 8 | b : b << 8 | a);
+  };
+  std::string out;
+  for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
+    if (warnings) warnings->check_stop();
+    std::uint32_t c = unit(i);
+    if (c >= 0xd800 && c < 0xe000) {
+      const std::uint32_t low = c < 0xdc00 && i + 3 < text.size() ? unit(i + 2) : 0;
+      const bool pair = low >= 0xdc00 && low < 0xe000;
+      c = pair ? 0x10000 + ((c - 0xd800) << 10 | (low - 0xdc00)) : 0xfffd;
+      if (pair) i += 2;
+    }
+    append_utf8(out, c);
+  }
+  return out;
+}
+
 void drop_front(std::string& text, std::size_t count, const WarningList* warnings) {
   const std::size_t left = text.size() - count;
   in_pieces(left, warnings, [&](std::size_t begin, std::size_t end) {
@@ -51,8 +87,7 @@ std::string read_text_file(const std::string& path, const char* element, std::si
                            WarningList* warnings) {
   const Progress* progress = warnings ? &warnings->progress() : nullptr;
   std::string text = read_file_characters(path, element, max_bytes, progress);
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    throw input_error({path, 1, 1}, element, "it is text in UTF-16", "save it as UTF-8");
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) text = utf8_from_utf16(text, warnings);
   drop_end(text, path, warnings);
   if (text.starts_with(kByteOrderMark)) drop_front(text, kByteOrderMark.size(), warnings);
   in_pieces(text.size(), warnings, [&](std::size_t begin, std::size_t end) {

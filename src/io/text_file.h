@@ -11,7 +11,8 @@ namespace candela {
 
 class WarningList;
 
-/// Reads a text file whole. A UTF-8 byte order mark at either end is dropped, and NUL bytes and the end mark
+/// Reads a text file whole, as UTF-8, also where its byte order mark says that it is UTF-16 (Windows' editors
+/// write it). A UTF-8 byte order mark at either end is dropped, and NUL bytes and the end mark
 /// of DOS (0x1a) at the end, which programs leave that write whole blocks; those are a warning, if there is a
 /// list of them. Throws input_error if it is missing, no regular file or holds another NUL byte (then it is
 /// no text), limit_error above max_bytes, before it allocates, and Cancelled when the warnings' progress says

@@ -80,8 +80,20 @@ TEST_F(ObjDamage, FillerAtTheEndsIsNoText) {
   const std::string mark = "\xef\xbb\xbf";
   EXPECT_EQ(read(mark + kQuad + "f 1 2 3\n" + mark).positions[0], vec3(-1, -1, 0));
   EXPECT_EQ(loaded.warnings.size(), 2u);
-  files.write("x.obj", "\xff\xfev");
-  EXPECT_TRUE(test::says(files.error("x.obj"), "x.obj:1:1: mesh: ", {"UTF-16"}));
+}
+
+// As editors on Windows save it: U+00FC is in the name, U+1F600 takes two units.
+TEST_F(ObjDamage, TextInUtf16IsRead) {
+  const std::u16string text =
+      u"\ufeffv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nusemtl gr\u00fcn\U0001F600\r\nf 1 2 3\r\n";
+  for (bool big_endian : {false, true}) {
+    std::string bytes;
+    for (char16_t c : text) {
+      const char low = static_cast<char>(c & 0xff), high = static_cast<char>(c >> 8);
+      bytes += {big_endian ? high : low, big_endian ? low : high};
+    }
+    EXPECT_EQ(read(bytes).slot_names[0], "gr\u00fcn\U0001F600");
+  }
 }
 
 TEST_F(ObjDamage, DecimalCommasAreRead) {
