@@ -20,9 +20,9 @@ struct ObjModel {
 /// uv (0, 0). Indices may be negative (relative) and may run ahead of the vertices they mean. Polygons are
 /// triangulated (io/triangulate.h); degenerate triangles are dropped; lines, points, curves, vertex colours,
 /// groups and smoothing groups are ignored. Positions are read in double precision, and relative to an origin
-/// of the mesh's own where it lies far from the file's (Mesh::origin). What is no number or means nothing costs
-/// its own vertex, attribute or face. Where no library is found, that of the file's own name is taken. What is
-/// dropped, missing or guessed is counted in `warnings`.
+/// of the mesh's own where it lies far from the file's (Mesh::origin). What is no number or means nothing
+/// costs its own vertex, attribute or face. Where no library is found, that of the file's own name is taken.
+/// What is dropped, missing or guessed is counted in `warnings`.
 ///
 /// Throws input_error, with the place of the first loss, if no face is left; limit_error above 2 GiB, 4096
 /// corners of a polygon or 16 MiB of a line; Cancelled.
