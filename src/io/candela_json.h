@@ -35,7 +35,8 @@
 // from everywhere. For its "mapping" see render/environment_map.h.
 //
 // Files are named relative to the scene's folder. A material's "diffuse_texture" is a picture file, or the
-// index of an entry of "textures": a list of {"file": …} or {"name", "width", "height", "srgb": [bytes]}.
+// index of an entry of "textures": a list of {"file": …} or {"name", "width", "height", "srgb": [bytes]}. It
+// is looked up at "diffuse_uv_scale" * uv + "diffuse_uv_offset", two numbers each.
 //
 // A mesh is a file, or inline: "positions", "triangles" (indices from 0), and perhaps "normals" (unit, or
 // zero: flat), "uvs" (both per vertex), "material_slots" (per triangle, into "slots"), "slots" (names, one

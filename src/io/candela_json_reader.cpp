@@ -67,6 +67,7 @@ private:
 
   /// Counts what will be read.
   void expect_files(JsonValue value) {
+    progress_.check();
     auto expect_named = [&](JsonValue name) {
       if (name.type() == JsonType::string) builder_.expect_file(name.string(), folder_);
     };
@@ -80,8 +81,10 @@ private:
           expect_files(part);
       }
     } else if (value.type() == JsonType::array) {
-      for (JsonValue part : value)
+      for (JsonValue part : value) {
+        progress_.check();
         if (part.type() == JsonType::object) expect_files(part);
+      }
     }
   }
 
@@ -150,7 +153,8 @@ private:
   }
 
   void materials(JsonValue array) {
-    auto known = keys_of(material_fields(), {"name", "diffuse_texture"});
+    auto known =
+        keys_of(material_fields(), {"name", "diffuse_texture", "diffuse_uv_scale", "diffuse_uv_offset"});
     each_object(array, "materials", [&](JsonValue object, const std::string& element) {
       Material material;
       for (auto [key, value] : object.members()) // first of all, for the others' defaults depend on it
@@ -162,6 +166,10 @@ private:
           material.name = read_string(value, name);
         else if (key.string() == "diffuse_texture")
           material.diffuse_texture = texture_of(value, name);
+        else if (key.string() == "diffuse_uv_scale")
+          material.diffuse_uv.scale = read_vec2(value, name);
+        else if (key.string() == "diffuse_uv_offset")
+          material.diffuse_uv.offset = read_vec2(value, name);
         else if (!read_row(material_fields(), material, key, value, element))
           throw unknown_key(key, element, known);
       }
@@ -237,8 +245,9 @@ private:
     };
     Instance out;
     if (const auto* name = part("name")) out.name = read_string(*name, element + ".name");
+    glm::dmat4 world_from_object(1);
     if (const auto* transform = part("transform"))
-      out.world_from_object = read_transform(*transform, element + ".transform");
+      world_from_object = read_transform(*transform, element + ".transform");
 
     bool names_mesh = part("mesh") || part("file");
     const auto* shape = part("shape");
@@ -262,6 +271,7 @@ private:
                         fmt::format("give one of {}", fmt::join(shape_names(), ", ")));
     }
     shape_values(out.shape, parts, object, element);
+    builder_.place(out, world_from_object, object.where());
     instance_materials(out, part("material"), part("materials"), file, object, element);
     document_.scene.instances.push_back(std::move(out));
   }
@@ -382,7 +392,9 @@ private:
 
 Document read_candela_json(const FoundFile& file, const PathPolicy& policy, WarningList& warnings) {
   warnings.check_stop();
-  return CandelaReader(read_text_file(file.canonical, "scene", kMaxJsonBytes), file, policy, warnings).run();
+  return CandelaReader(read_text_file(file.canonical, "scene", kMaxJsonBytes, &warnings), file, policy,
+                       warnings)
+      .run();
 }
 
 Document parse_candela_json(std::string text, const std::string& shown, const PathPolicy& policy,

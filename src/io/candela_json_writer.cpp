@@ -127,6 +127,11 @@ private:
       if (material.diffuse_texture >= 0)
         members.push_back(
             fmt::format("\"diffuse_texture\": {}", texture_reference(material.diffuse_texture)));
+      auto pair = [&](std::string_view key, vec2 v, vec2 standard) {
+        if (v != standard) members.push_back(fmt::format("\"{}\": [{}, {}]", key, v.x, v.y));
+      };
+      pair("diffuse_uv_scale", material.diffuse_uv.scale, UvTransform{}.scale);
+      pair("diffuse_uv_offset", material.diffuse_uv.offset, UvTransform{}.offset);
       out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
     }
     return out;
@@ -170,9 +175,10 @@ private:
         key = fmt::format("{}-{}", mesh.name.empty() ? "mesh" : mesh.name, i);
       mesh_keys_[&mesh] = key;
       std::string name = key == mesh.name ? "" : fmt::format("\"name\": {}, ", json_quoted(mesh.name));
-      if (auto path = path_below(folder_.string(), mesh.source))
+      if (auto path = path_below(folder_.string(), mesh.source)) {
+        by_reference_.insert(&mesh);
         out.push_back(fmt::format("{}: {{{}\"file\": {}}}", json_quoted(key), name, json_quoted(*path)));
-      else
+      } else
         out.push_back(
             fmt::format("{}: {{{}\n{}}}", json_quoted(key), name, json_mesh_members(mesh, "      ")));
     }
@@ -187,7 +193,7 @@ private:
       if (!instance.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(instance.name)));
       members.push_back(shape(instance.shape));
       members.push_back(materials_of(instance));
-      if (instance.world_from_object != mat4(1)) members.push_back(transform(instance.world_from_object));
+      if (std::string text = transform(instance); !text.empty()) members.push_back(std::move(text));
       out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
     }
     return out;
@@ -227,7 +233,18 @@ private:
     return fmt::format("\"materials\": {}{}{}", named ? "{" : "[", joined(items, ", "), named ? "}" : "]");
   }
 
-  static std::string transform(const mat4& m) {
+  /// Takes the coordinates to the world that the reader will find: those of the file of a mesh that is
+  /// written by reference. Where that is far from the mesh's own origin, floats would not do.
+  std::string transform(const Instance& instance) const {
+    const mat4& m = instance.world_from_object;
+    const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape);
+    if (mesh && by_reference_.contains(mesh->get()) && (*mesh)->origin != glm::dvec3(0))
+      return matrix(glm::translate(glm::dmat4(m), -(*mesh)->origin));
+    return m == mat4(1) ? "" : matrix(m);
+  }
+
+  template <class Matrix>
+  static std::string matrix(const Matrix& m) {
     std::vector<std::string> numbers;
     for (int r = 0; r < 4; ++r)
       for (int c = 0; c < 4; ++c) numbers.push_back(fmt::format("{}", m[c][r]));
@@ -239,6 +256,7 @@ private:
   fs::path folder_;
   bool natural_textures_ = true;
   std::map<const Mesh*, std::string> mesh_keys_;
+  std::set<const Mesh*> by_reference_;
   std::map<std::string, int> name_count_;
 };
 

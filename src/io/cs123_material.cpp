@@ -82,10 +82,14 @@ std::optional<MtlMaterial> cs123_material(pugi::xml_node object, const Cs123Valu
       out.texture_where = file ? values.places().attribute(file, child) : values.places().element(child);
       if (std::string_view(file.value()).empty())
         throw input_error(out.texture_where, "texture", "it names no file", "write <texture file=\"…\"/>");
-      out.diffuse_texture = policy.require(file.value(), folder, out.texture_where, "texture");
-      if (values.optional_number(child, {"u"}).value_or(1) != 1 ||
-          values.optional_number(child, {"v"}).value_or(1) != 1)
-        values.warnings().add(out.texture_where, "repeats of a texture are ignored");
+      out.diffuse_texture =
+          policy.find_exported(file.value(), folder, out.texture_where, "texture", values.warnings());
+      if (!out.diffuse_texture)
+        values.warnings().add(out.texture_where,
+                              fmt::format("the texture '{}' is missing: no texture",
+                                          utf8_name(std::string_view(file.value()).substr(0, 200))));
+      auto repeats = [&](const char* axis) { return values.optional_number(child, {axis}).value_or(1); };
+      m.diffuse_uv.scale = {repeats("u"), repeats("v")};
     } else {
       known = false;
       if (name != "ambient") values.ignore(child); // there is no ambient light to reflect

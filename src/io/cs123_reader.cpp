@@ -1,5 +1,6 @@
 #include "io/cs123_reader.h"
 
+#include "io/apart.h"
 #include "io/cs123_light.h"
 #include "io/cs123_material.h"
 #include "io/json_transform.h"
@@ -44,10 +45,10 @@ std::optional<Cs123Shape> cs123_shape(std::string_view kind) {
 class Cs123Reader {
 public:
   Cs123Reader(const FoundFile& file, const PathPolicy& policy, WarningList& warnings)
-      : file_(file), folder_(folder_of(file.shown)),
-        text_(read_text_file(file.canonical, "scene", kMaxXmlBytes)), places_(file.shown, text_),
-        progress_(warnings.part(file.canonical, text_.size())), values_(places_, warnings),
-        builder_(document_.scene, policy, MtlDialect::cs123, warnings) {}
+      : file_(file), folder_(folder_of(file.shown)), text_(std::make_shared<const std::string>(read_text_file(
+                                                         file.canonical, "scene", kMaxXmlBytes, &warnings))),
+        places_(file.shown, *text_), progress_(warnings.part(file.canonical, text_->size())),
+        values_(places_, warnings), builder_(document_.scene, policy, MtlDialect::cs123, warnings) {}
 
   Document run() {
     pugi::xml_node scene = parse();
@@ -79,14 +80,16 @@ public:
 
 private:
   pugi::xml_node parse() {
-    // Offsets are those of the text only while nothing is converted.
-    auto result = xml_.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
+    auto result = run_apart(&progress_, nullptr, [text = text_, xml = xml_](ProgressPart*, WarningList*) {
+      // Offsets are those of the text only while nothing is converted.
+      return xml->load_buffer(text->data(), text->size(), pugi::parse_default, pugi::encoding_utf8);
+    });
     if (!result)
       throw input_error(places_.offset(static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0))),
                         "XML", result.description(), "correct the syntax here");
-    pugi::xml_node scene = xml_.child("scenefile");
+    pugi::xml_node scene = xml_->child("scenefile");
     if (!scene) {
-      pugi::xml_node first = xml_.document_element();
+      pugi::xml_node first = xml_->document_element();
       throw input_error(first ? places_.element(first) : Location{file_.shown}, "scene",
                         fmt::format("<{}> is no CS123 scene", std::string_view(first.name()).substr(0, 40)),
                         "give a file with <scenefile>");
@@ -97,6 +100,7 @@ private:
   /// Counts what will be read.
   void expect_files(pugi::xml_node node, int depth) {
     if (depth > 3 * kMaxDepth) return; // refused later
+    progress_.check();
     for (const char* key : {"filename", "file"})
       if (auto name = node.attribute(key)) builder_.expect_file(name.value(), folder_);
     for (pugi::xml_node child : node.children()) expect_files(child, depth + 1);
@@ -290,9 +294,8 @@ private:
     if (auto problem = transform_problem(m); !problem.empty())
       throw input_error(places_.element(node), "transblock", problem, "correct its transformations");
     Instance instance;
-    instance.world_from_object = mat4(m);
     if (kind == "mesh") {
-      mesh(node, instance);
+      mesh(node, instance, m);
     } else if (auto shape = cs123_shape(kind)) {
       instance.name = kind;
       instance.shape = shape->shape;
@@ -319,15 +322,19 @@ private:
     return known->second;
   }
 
-  void mesh(pugi::xml_node node, Instance& instance) {
+  void mesh(pugi::xml_node node, Instance& instance, const dmat4& m) {
     auto attribute = node.attribute("filename") ? node.attribute("filename") : node.attribute("file");
     if (!attribute)
       throw input_error(places_.element(node), "object", "a mesh without a file", "write filename=\"….obj\"");
     Location where = places_.attribute(attribute, node);
-    FoundFile found = builder_.policy().require(attribute.value(), folder_, where, "filename");
-    MeshFile& file = builder_.mesh_file(found, "", where, "filename");
+    // The course's scenes name absolute paths of the machines that they were made on.
+    auto found =
+        builder_.policy().find_exported(attribute.value(), folder_, where, "filename", builder_.warnings());
+    if (!found) found = builder_.policy().require(attribute.value(), folder_, where, "filename");
+    MeshFile& file = builder_.mesh_file(*found, "", where, "filename");
     instance.name = file.mesh->name;
     instance.shape = file.mesh;
+    builder_.place(instance, m, where);
     for (std::size_t slot = 0; slot < file.mesh->slot_names.size(); ++slot) {
       int material = builder_.imported_material(file, slot);
       if (material < 0) material = own_material(node, "mesh");
@@ -338,11 +345,11 @@ private:
 
   FoundFile file_;
   std::string folder_;
-  std::string text_;
+  std::shared_ptr<const std::string> text_;
   XmlPlaces places_;
   ProgressPart progress_;
   Cs123Values values_;
-  pugi::xml_document xml_;
+  std::shared_ptr<pugi::xml_document> xml_ = std::make_shared<pugi::xml_document>();
   Document document_;
   SceneBuilder builder_;
   Cs123Coefficients global_;

@@ -1,5 +1,6 @@
 // OpenEXR, through its library.
 
+#include "io/exr_layers.h"
 #include "io/image_codec.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -8,8 +9,9 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
@@ -65,33 +67,6 @@ private:
   Bytes bytes_;
   std::size_t at_ = 0;
 };
-
-/// Which of a file's channels are red, green and blue; an empty name is a channel that is not there.
-struct ColorChannels {
-  std::string r, g, b;
-  bool luminance_chroma = false; ///< Y with RY and BY, subsampled
-};
-
-ColorChannels color_channels(const Imf::ChannelList& list, const Location& where) {
-  auto named = [&](const std::string& name) { return list.findChannel(name) ? name : std::string(); };
-  auto of_layer = [&](const std::string& prefix) -> std::optional<ColorChannels> {
-    ColorChannels c{named(prefix + "R"), named(prefix + "G"), named(prefix + "B")};
-    if (!c.r.empty() || !c.g.empty() || !c.b.empty()) return c;
-    if (auto y = named(prefix + "Y"); !y.empty()) return ColorChannels{y, y, y};
-    return std::nullopt;
-  };
-  if (list.findChannel("Y") && list.findChannel("RY") && list.findChannel("BY")) return {"", "", "", true};
-  if (auto c = of_layer("")) return *c;
-  std::string names;
-  for (auto i = list.begin(); i != list.end(); ++i) { // the first layer that has colours
-    std::string name = i.name();
-    if (auto dot = name.rfind('.'); dot != std::string::npos)
-      if (auto c = of_layer(name.substr(0, dot + 1))) return *c;
-    if (names.size() < 200) names += (names.empty() ? "" : ", ") + name;
-  }
-  throw input_error(where, "image", fmt::format("its channels are {}", names.empty() ? "none" : names),
-                    "give it R, G, B or Y");
-}
 
 bool near(const Imf::Chromaticities& a, const Imf::Chromaticities& b) {
   auto close = [](Imath::V2f p, Imath::V2f q) { return (p - q).length() < 1e-3f; };
@@ -179,48 +154,61 @@ void read_luminance_chroma(Imf::IStream& stream, Image& image, const Imath::Box2
   }
 }
 
-void read_channels(Imf::InputFile& file, Image& image, const ColorChannels& channels,
-                   const Imath::Box2i& window, ProgressPart* progress) {
+/// Scan lines that the library decodes together.
+int block_height(const Imf::Header& header) {
+  if (header.hasTileDescription()) return static_cast<int>(std::min(header.tileDescription().ySize, 8192u));
+  switch (header.compression()) {
+  case Imf::NO_COMPRESSION:
+  case Imf::RLE_COMPRESSION:
+  case Imf::ZIPS_COMPRESSION: return 1;
+  case Imf::ZIP_COMPRESSION:
+  case Imf::PXR24_COMPRESSION: return 16;
+  case Imf::DWAB_COMPRESSION: return 256;
+  default: return 32;
+  }
+}
+
+void read_channels(Imf::InputPart& part, Image& image, const ExrLayer& layer, const Imath::Box2i& window,
+                   ProgressPart* progress) {
   Imf::FrameBuffer frame;
   std::size_t row = sizeof(vec3) * static_cast<std::size_t>(image.width);
   auto insert = [&](const std::string& name, int component) {
     if (name.empty()) return;
     frame.insert(name, Imf::Slice::Make(Imf::FLOAT, &image.pixels[0][component], window, sizeof(vec3), row));
   };
-  insert(channels.r, 0);
-  if (channels.g != channels.r) insert(channels.g, 1);
-  if (channels.b != channels.r) insert(channels.b, 2);
-  file.setFrameBuffer(frame);
-  // Bands, of whole blocks of any compression and of whole tiles: the library decodes those once for a call.
-  constexpr int kBand = 256;
-  for (int y = 0; y < image.height; y += kBand) {
+  insert(layer.r, 0);
+  if (layer.g != layer.r) insert(layer.g, 1);
+  if (layer.b != layer.r) insert(layer.b, 2);
+  part.setFrameBuffer(frame);
+  // Bands of whole blocks, which the library decodes once for a call.
+  const int band = std::max(16, block_height(part.header()));
+  for (int y = 0; y < image.height; y += band) {
     if (progress) progress->reach(static_cast<double>(y) / image.height);
-    file.readPixels(window.min.y + y, window.min.y + std::min(y + kBand, image.height) - 1);
+    part.readPixels(window.min.y + y, window.min.y + std::min(y + band, image.height) - 1);
   }
-  if (!channels.r.empty() && channels.g == channels.r)
+  if (!layer.r.empty() && layer.g == layer.r)
     for (vec3& pixel : image.pixels) pixel = vec3(pixel.x);
 }
 
-Image decode(ByteView bytes, const Location& where, ProgressPart* progress) {
+Image decode(ByteView bytes, const Location& where, ProgressPart* progress, WarningList* warnings) {
   MemoryInput stream(bytes, where.file);
-  Imf::InputFile file(stream);
-  const Imf::Header& header = file.header();
-  if (header.hasType() && Imf::isDeepData(header.type()))
-    throw input_error(where, "image", "its pixels are deep", "flatten it");
+  Imf::MultiPartInputFile file(stream);
+  const ExrLayer layer = choose_exr_layer(file, where, warnings);
+  const Imf::Header& header = file.header(layer.part);
   Imath::Box2i window = header.dataWindow();
   std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
   check_image_size(where, width, height);
   check_plausible(header, bytes.size(), width, height, where);
-  if (!file.isComplete()) throw damaged_image(where, "the EXR ends early");
-  ColorChannels channels = color_channels(header.channels(), where);
+  if (!file.partComplete(layer.part)) throw damaged_image(where, "the EXR ends early");
   Image image{static_cast<int>(width), static_cast<int>(height),
               std::vector<vec3>(static_cast<std::size_t>(width * height), vec3(0))};
-  if (channels.luminance_chroma) {
-    stream.seekg(0);
-    read_luminance_chroma(stream, image, window, progress);
+  if (layer.luminance_chroma) {
+    MemoryInput again(bytes, where.file);
+    read_luminance_chroma(again, image, window, progress);
   } else {
-    read_channels(file, image, channels, window, progress);
+    Imf::InputPart part(file, layer.part);
+    read_channels(part, image, layer, window, progress);
   }
   to_rec709(image, header, where);
   return image;
@@ -251,8 +239,8 @@ bool is_exr(ByteView bytes) {
   return bytes.size() >= 4 && bytes[0] == 0x76 && bytes[1] == 0x2f && bytes[2] == 0x31 && bytes[3] == 0x01;
 }
 
-Image decode_exr(ByteView bytes, const Location& where, ProgressPart* progress) {
-  return guarded([&] { return decode(bytes, where, progress); }, where);
+Image decode_exr(ByteView bytes, const Location& where, ProgressPart* progress, WarningList* warnings) {
+  return guarded([&] { return decode(bytes, where, progress, warnings); }, where);
 }
 
 std::optional<std::string> exr_text(ByteView bytes, const std::string& name, const Location& where) {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -22,7 +24,8 @@ struct Descriptor {
 };
 
 template <class Container>
-Container read_whole(const std::string& path, const char* element, std::size_t max_bytes) {
+Container read_whole(const std::string& path, const char* element, std::size_t max_bytes,
+                     const Progress* progress) {
   Location where{path};
   auto failed = [&](const char* what) {
     return input_error(where, element, fmt::format("{}: {}", what, std::strerror(errno)),
@@ -39,28 +42,33 @@ Container read_whole(const std::string& path, const char* element, std::size_t m
   if (size > max_bytes)
     throw limit_error(where, element, fmt::format("{} bytes are more than the {} allowed", size, max_bytes),
                       "use a smaller file");
+  // Filling the container with zeros first would take long for gigabytes, and nobody could stop that.
   Container bytes;
-  bytes.resize(size);
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    ssize_t got = ::read(file.value, bytes.data() + done, bytes.size() - done);
+  bytes.reserve(size);
+  std::array<char, 65536> piece;
+  while (bytes.size() < size) {
+    if (progress) progress->check();
+    const std::size_t wanted = std::min<std::size_t>(piece.size(), size - bytes.size());
+    ssize_t got = ::read(file.value, piece.data(), wanted);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw failed("it cannot be read");
     if (got == 0) break; // it shrank meanwhile: what is missing is the decoder's to find
-    done += static_cast<std::size_t>(got);
+    const auto* begin = reinterpret_cast<const typename Container::value_type*>(piece.data());
+    bytes.insert(bytes.end(), begin, begin + got);
   }
-  bytes.resize(done);
   return bytes;
 }
 
 } // namespace
 
-Bytes read_file_bytes(const std::string& path, const char* element, std::size_t max_bytes) {
-  return read_whole<Bytes>(path, element, max_bytes);
+Bytes read_file_bytes(const std::string& path, const char* element, const Progress* progress,
+                      std::size_t max_bytes) {
+  return read_whole<Bytes>(path, element, max_bytes, progress);
 }
 
-std::string read_file_characters(const std::string& path, const char* element, std::size_t max_bytes) {
-  return read_whole<std::string>(path, element, max_bytes);
+std::string read_file_characters(const std::string& path, const char* element, std::size_t max_bytes,
+                                 const Progress* progress) {
+  return read_whole<std::string>(path, element, max_bytes, progress);
 }
 
 } // namespace candela

@@ -31,4 +31,24 @@ Image linear_image(const Picture8& picture) {
   return image;
 }
 
+void make_finite(Image& image, const Location& where, WarningList& warnings) {
+  constexpr float kLargestHalf = 65504;
+  float most = kLargestHalf;
+  std::size_t nans = 0, infinities = 0;
+  for (const vec3& pixel : image.pixels)
+    for (int c = 0; c < 3; ++c) {
+      if (std::isfinite(pixel[c]))
+        most = std::max(most, pixel[c]);
+      else
+        ++(std::isnan(pixel[c]) ? nans : infinities);
+    }
+  if (nans + infinities == 0) return;
+  for (vec3& pixel : image.pixels)
+    for (int c = 0; c < 3; ++c)
+      if (!std::isfinite(pixel[c])) pixel[c] = std::isnan(pixel[c]) ? 0 : std::copysign(most, pixel[c]);
+  if (infinities > 0)
+    warnings.add(where, fmt::format("{} values are infinite: taken for {}", infinities, most));
+  if (nans > 0) warnings.add(where, fmt::format("{} values are not numbers: taken for 0", nans));
+}
+
 } // namespace candela

@@ -5,13 +5,15 @@
 //
 // Decoders take the whole file; they throw input_error for what is damaged and
 // limit_error for what is too large, located at `where`, before they allocate
-// pixels. Those that may take long are told of by `progress`, which may be null,
-// and end with Cancelled when it says so.
+// pixels. `progress`, which may be null, tells how far they are; they end with
+// Cancelled when it says so, but for PNG, BMP and TGA, which are run apart
+// (io/apart.h) where somebody may want to stop them.
 
 #include "core/error.h"
 #include "core/progress.h"
 #include "io/file_bytes.h"
 #include "io/image_file.h"
+#include "io/warning_list.h"
 #include "scene/mesh.h"
 
 #include <optional>
@@ -42,13 +44,20 @@ struct Picture8 {
 };
 
 // image_file.cpp: the format is known by its signature.
-Image decode_image(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
+Image decode_image(ByteView bytes, const Location& where, ProgressPart* progress = nullptr,
+                   WarningList* warnings = nullptr);
 
 /// The linear picture.
 Image linear_image(const Picture8& picture);
 
+/// Makes the pixels of a picture finite: NaN becomes 0, an infinity what the half
+/// precision of EXR means by it, "more than 65504", or the largest value that is
+/// there, if that is more. Both are counted in a warning.
+void make_finite(Image& image, const Location& where, WarningList& warnings);
+
 // stb_codec.cpp: PNG, BMP and (`tga`: it has no signature, so the caller has to
-// know) TGA. Alpha is dropped; PNGs of 16 bits keep them in decode_stb.
+// know) TGA, whichever way its rows and columns run. Alpha is dropped; PNGs of 16 bits keep them in
+// decode_stb.
 bool is_stb_format(ByteView bytes);
 Picture8 decode_stb8(ByteView bytes, const Location& where, bool tga = false);
 Image decode_stb(ByteView bytes, const Location& where, bool tga = false);
@@ -78,12 +87,15 @@ Bytes encode_jpg(int width, int height, ByteView rgb, const std::string& path);
 // pnm.cpp: PPM and PGM (P2, P3, P5, P6), up to 16 bits, read as sRGB; written
 // as P6.
 bool is_pnm(ByteView bytes);
-Image decode_pnm(ByteView bytes, const Location& where);
+Image decode_pnm(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
 Bytes encode_ppm(int width, int height, ByteView rgb);
 
 // exr.cpp: OpenEXR, flat parts, any compression; written as 32-bit float, ZIP.
+// Of several parts or layers one is read (io/exr_layers.h), and the warnings name
+// the others.
 bool is_exr(ByteView bytes);
-Image decode_exr(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
+Image decode_exr(ByteView bytes, const Location& where, ProgressPart* progress = nullptr,
+                 WarningList* warnings = nullptr);
 /// The string attribute of that name; nothing if there is none.
 std::optional<std::string> exr_text(ByteView bytes, const std::string& name, const Location& where);
 /// `path` is for messages.
@@ -96,7 +108,7 @@ Bytes encode_hdr(const Image& image, const ImageMetadata& metadata);
 
 // pfm.cpp: portable float map, colour and grey, either byte order.
 bool is_pfm(ByteView bytes);
-Image decode_pfm(ByteView bytes, const Location& where);
+Image decode_pfm(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
 Bytes encode_pfm(const Image& image);
 
 } // namespace candela

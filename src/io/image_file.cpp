@@ -64,13 +64,13 @@ bool is_image_name(std::string_view path) {
          std::ranges::find(kOnlyRead, ending) != std::end(kOnlyRead);
 }
 
-Image decode_image(ByteView bytes, const Location& where, ProgressPart* progress) {
+Image decode_image(ByteView bytes, const Location& where, ProgressPart* progress, WarningList* warnings) {
   if (is_stb_format(bytes)) return decode_stb(bytes, where);
   if (is_jpg(bytes)) return linear_image(decode_jpg(bytes, where, progress));
-  if (is_exr(bytes)) return decode_exr(bytes, where, progress);
+  if (is_exr(bytes)) return decode_exr(bytes, where, progress, warnings);
   if (is_hdr(bytes)) return decode_hdr(bytes, where, progress);
-  if (is_pfm(bytes)) return decode_pfm(bytes, where);
-  if (is_pnm(bytes)) return decode_pnm(bytes, where);
+  if (is_pfm(bytes)) return decode_pfm(bytes, where, progress);
+  if (is_pnm(bytes)) return decode_pnm(bytes, where, progress);
   throw input_error(where, "image",
                     bytes.empty() ? "the file is empty" : "its content is of no known image format",
                     "use PNG, JPG, BMP, PPM, EXR, HDR or PFM");

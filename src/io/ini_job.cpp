@@ -15,6 +15,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// The line up to its comment, which begins with a ';' outside of quotes, as Qt's QSettings has it.
+std::string_view without_comment(std::string_view line) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '\\')
+      ++i; // whatever follows means no more than itself
+    else if (line[i] == '"')
+      quoted = !quoted;
+    else if (line[i] == ';' && !quoted)
+      return line.substr(0, i);
+  }
+  return line;
+}
+
 constexpr std::size_t kMaxIniBytes = std::size_t{1} << 20;
 constexpr std::string_view kSections[] = {"IO", "Settings"};
 constexpr std::string_view kIoKeys[] = {"scene", "output"};
@@ -24,14 +38,15 @@ constexpr std::string_view kSettingsKeys[] = {"imageWidth",         "imageHeight
 
 class IniReader {
 public:
-  IniReader(const std::string& path, bool allow_outside)
-      : path_(path), allow_outside_(allow_outside), text_(read_text_file(path, "job", kMaxIniBytes)) {}
+  IniReader(const std::string& path, bool allow_outside, WarningList& warnings)
+      : path_(path), allow_outside_(allow_outside),
+        text_(read_text_file(path, "job", kMaxIniBytes, &warnings)) {}
 
   IniJob run() {
     std::string_view rest = text_;
     while (!rest.empty()) {
       std::size_t end = std::min(rest.find('\n'), rest.size());
-      line(trimmed(rest.substr(0, end)));
+      line(trimmed(without_comment(rest.substr(0, end))));
       rest.remove_prefix(std::min(end + 1, rest.size()));
     }
     if (scene_.empty())
@@ -52,7 +67,7 @@ private:
   }
 
   void line(std::string_view text) {
-    if (text.empty() || text.front() == ';' || text.front() == '#') return;
+    if (text.empty() || text.front() == '#') return;
     if (text.front() == '[') return section(text);
     auto equals = text.find('=');
     if (equals == std::string_view::npos)
@@ -109,8 +124,11 @@ private:
       set("path.rr_probability", key, value);
       p.rr = RussianRoulette::fixed, p.rr_depth = 1;
     } else if (key == "directLightingOnly") {
-      bool only = value == "true" || value == "1";
-      if (!only && value != "false" && value != "0")
+      std::string word(value);
+      for (char& c : word)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+      const bool only = word == "true" || word == "1";
+      if (!only && word != "false" && word != "0")
         throw input_error(at(value), key, fmt::format("'{}' does not fit", value.substr(0, 60)),
                           "give true or false");
       p.max_depth = only ? 2 : -1;
@@ -169,8 +187,8 @@ private:
 
 } // namespace
 
-IniJob read_ini_job(const std::string& path, bool allow_outside) {
-  return IniReader(path, allow_outside).run();
+IniJob read_ini_job(const std::string& path, bool allow_outside, WarningList& warnings) {
+  return IniReader(path, allow_outside, warnings).run();
 }
 
 } // namespace candela

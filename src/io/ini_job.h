@@ -34,11 +34,13 @@ struct IniJob {
 /// - numDirectLightingSamples: path.light_samples.
 /// - As the assignment's reference pictures are shown: display.tone_map = reinhard, display.exposure = -0.65.
 ///
+/// As in Qt's QSettings, with which the assignment reads them, a ';' outside of quotes begins a comment.
+///
 /// The job's scene is named relative to a folder that need not be the job's. It is looked for there and in up
 /// to four folders above, and, as the assignment's students keep the scenes in example-scenes/, with that
 /// folder's name left out too. Unless allow_outside, the name may not be absolute or go upwards.
 ///
 /// Throws input_error with line and column for everything else that does not fit.
-IniJob read_ini_job(const std::string& path, bool allow_outside);
+IniJob read_ini_job(const std::string& path, bool allow_outside, WarningList& warnings);
 
 } // namespace candela

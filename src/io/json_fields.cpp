@@ -103,17 +103,27 @@ std::string read_string(JsonValue value, std::string_view element) {
   return value.string();
 }
 
+double read_double(JsonValue value, std::string_view element) {
+  expect(value, JsonType::number, element);
+  std::string_view token = value.token();
+  double out = 0; // stays 0 below the range of a double
+  auto status = std::from_chars(token.data(), token.data() + token.size(), out).ec;
+  const bool tiny = token.find("e-") != token.npos || token.find("E-") != token.npos;
+  if ((status == std::errc() || tiny) &&
+      std::abs(out) <= static_cast<double>(std::numeric_limits<float>::max()))
+    return out;
+  throw input_error(value.where(), element, fmt::format("{} is too large", shortened(token)),
+                    "give a number below 3.4e38");
+}
+
 float read_real(JsonValue value, std::string_view element) {
   expect(value, JsonType::number, element);
   std::string_view token = value.token();
   float out = 0;
   auto status = std::from_chars(token.data(), token.data() + token.size(), out).ec;
   if (status == std::errc()) return out;
-  double wide = 0; // too large or too small for a float, which from_chars does not tell apart
-  std::from_chars(token.data(), token.data() + token.size(), wide);
-  if (std::abs(wide) < 1) return static_cast<float>(wide);
-  throw input_error(value.where(), element, fmt::format("{} is too large", shortened(token)),
-                    "give a number below 3.4e38");
+  // Too large or too small for a float, which from_chars does not tell apart.
+  return static_cast<float>(read_double(value, element));
 }
 
 int read_integer(JsonValue value, std::string_view element, int minimum, int maximum) {
@@ -128,7 +138,11 @@ int read_integer(JsonValue value, std::string_view element, int minimum, int max
   return out;
 }
 
-void read_reals(JsonValue value, std::span<float> out, std::string_view element) {
+namespace {
+
+template <class Real>
+void read_array(JsonValue value, std::span<Real> out, std::string_view element,
+                Real (*read)(JsonValue, std::string_view)) {
   if (value.type() != JsonType::array || value.size() != out.size())
     throw input_error(value.where(), element,
                       value.type() == JsonType::array
@@ -136,12 +150,28 @@ void read_reals(JsonValue value, std::span<float> out, std::string_view element)
                           : fmt::format("{} does not fit", type_name(value.type())),
                       fmt::format("give an array of {} numbers", out.size()));
   auto it = out.begin();
-  for (JsonValue part : value) *it++ = read_real(part, element);
+  for (JsonValue part : value) *it++ = read(part, element);
+}
+
+} // namespace
+
+void read_reals(JsonValue value, std::span<float> out, std::string_view element) {
+  read_array(value, out, element, read_real);
+}
+
+void read_reals(JsonValue value, std::span<double> out, std::string_view element) {
+  read_array(value, out, element, read_double);
+}
+
+vec2 read_vec2(JsonValue value, std::string_view element) {
+  float v[2];
+  read_reals(value, std::span<float>(v), element);
+  return {v[0], v[1]};
 }
 
 vec3 read_vec3(JsonValue value, std::string_view element) {
   float v[3];
-  read_reals(value, v, element);
+  read_reals(value, std::span<float>(v), element);
   return {v[0], v[1], v[2]};
 }
 

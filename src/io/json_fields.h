@@ -22,10 +22,13 @@ std::string field_json(const FieldInfo& field, const void* address);
 // Values that are in no table. All throw input_error at the value.
 void expect(JsonValue value, JsonType type, std::string_view element);
 std::string read_string(JsonValue value, std::string_view element);
-float read_real(JsonValue value, std::string_view element); ///< finite in float
+float read_real(JsonValue value, std::string_view element);    ///< finite in float
+double read_double(JsonValue value, std::string_view element); ///< the same in double precision
 int read_integer(JsonValue value, std::string_view element, int minimum, int maximum);
 /// An array of exactly out.size() finite numbers.
 void read_reals(JsonValue value, std::span<float> out, std::string_view element);
+void read_reals(JsonValue value, std::span<double> out, std::string_view element);
+vec2 read_vec2(JsonValue value, std::string_view element);
 vec3 read_vec3(JsonValue value, std::string_view element);
 
 /// The error of a key that means nothing here, with the nearest of the keys that would.

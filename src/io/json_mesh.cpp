@@ -21,7 +21,7 @@ std::vector<Vec> read_vectors(JsonValue value, std::string_view element, const W
   for (JsonValue part : value) {
     warnings.check_stop();
     float v[N];
-    read_reals(part, v, element);
+    read_reals(part, std::span<float>(v), element);
     Vec vector;
     for (int i = 0; i < N; ++i) vector[i] = v[i];
     out.push_back(vector);
@@ -57,8 +57,9 @@ void check_count(JsonValue value, std::size_t expected, std::string_view element
 }
 
 /// Unit or zero normals stay as they are, bit for bit; others are made unit.
-void make_unit(std::vector<vec3>& normals) {
+void make_unit(std::vector<vec3>& normals, const WarningList& warnings) {
   for (vec3& n : normals) {
+    warnings.check_stop();
     double length = glm::length(glm::dvec3(n));
     if (length > 0 && std::abs(length - 1) > 1e-5) n = vec3(glm::dvec3(n) / length);
   }
@@ -83,7 +84,7 @@ Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view 
     } else if (key.string() == "normals") {
       normals = value;
       mesh.normals = read_vectors<vec3, 3>(value, where, warnings);
-      make_unit(mesh.normals);
+      make_unit(mesh.normals, warnings);
     } else if (key.string() == "uvs") {
       uvs = value;
       mesh.uvs = read_vectors<vec2, 2>(value, where, warnings);
@@ -114,8 +115,10 @@ Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view 
     std::string where = fmt::format("{}.material_slots", element);
     expect(*slots, JsonType::array, where);
     int last = static_cast<int>(mesh.slot_names.size()) - 1;
-    for (JsonValue slot : *slots)
+    for (JsonValue slot : *slots) {
+      warnings.check_stop();
       mesh.material_slots.push_back(static_cast<std::uint32_t>(read_integer(slot, where, 0, last)));
+    }
     if (!mesh.material_slots.empty()) check_count(*slots, mesh.triangles.size(), where, "triangles");
   }
   return mesh;

@@ -13,17 +13,17 @@ using glm::dvec3;
 using glm::dvec4;
 
 dmat4 read_matrix(JsonValue value, std::string_view element) {
-  float rows[16];
-  read_reals(value, rows, element);
+  double rows[16];
+  read_reals(value, std::span<double>(rows), element);
   dmat4 m;
   for (int r = 0; r < 4; ++r)
-    for (int c = 0; c < 4; ++c) m[c][r] = static_cast<double>(rows[4 * r + c]);
+    for (int c = 0; c < 4; ++c) m[c][r] = rows[4 * r + c];
   return m;
 }
 
 dmat4 read_rotate(JsonValue value, std::string_view element) {
   float v[4];
-  read_reals(value, v, element);
+  read_reals(value, std::span<float>(v), element);
   dvec3 axis(v[0], v[1], v[2]);
   if (axis == dvec3(0))
     throw input_error(value.where(), element, "the axis has no length", "give [axis x, y, z, degrees]");
@@ -66,7 +66,11 @@ dmat4 read_step(JsonValue step, std::string_view element) {
                       "give one of translate, rotate, scale, matrix, look_at");
   auto [key, value] = step.members().front();
   std::string name = fmt::format("{}.{}", element, key.string());
-  if (key.string() == "translate") return glm::translate(dmat4(1), dvec3(read_vec3(value, name)));
+  if (key.string() == "translate") {
+    double v[3];
+    read_reals(value, std::span<double>(v), name);
+    return glm::translate(dmat4(1), dvec3(v[0], v[1], v[2]));
+  }
   if (key.string() == "rotate") return read_rotate(value, name);
   if (key.string() == "scale") return read_scale(value, name);
   if (key.string() == "matrix") return read_matrix(value, name);
@@ -100,7 +104,7 @@ std::string_view transform_problem(const dmat4& m) {
   return {};
 }
 
-mat4 read_transform(JsonValue value, std::string_view element) {
+dmat4 read_transform(JsonValue value, std::string_view element) {
   expect(value, JsonType::array, element);
   dmat4 m(1);
   if (value.size() > 0 && (*value.begin()).type() == JsonType::number) {
@@ -111,7 +115,7 @@ mat4 read_transform(JsonValue value, std::string_view element) {
   }
   if (auto problem = transform_problem(m); !problem.empty())
     throw input_error(value.where(), element, problem, "give an affine transform with an inverse");
-  return mat4(m);
+  return m;
 }
 
 } // namespace candela

@@ -10,7 +10,7 @@ namespace candela {
 
 /// Reads 16 numbers, row-major, or a list of steps (io/candela_json.h). Throws input_error for what is not
 /// affine, not finite or not invertible.
-mat4 read_transform(JsonValue value, std::string_view element);
+glm::dmat4 read_transform(JsonValue value, std::string_view element);
 
 /// Rotation about an axis of any length but 0; exact for multiples of 90 degrees about a coordinate axis.
 glm::dmat4 rotation(glm::dvec3 axis, double degrees);

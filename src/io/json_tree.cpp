@@ -55,6 +55,36 @@ std::string_view after_last(std::string_view text, std::string_view mark) {
   return found == std::string_view::npos ? text : text.substr(found + mark.size());
 }
 
+/// The characters of the text, one after the other, for the parser; it may be told to stop anywhere, also in
+/// a string or a comment of hundreds of megabytes.
+class WatchedCharacters {
+public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  WatchedCharacters(const char* at, const ProgressPart* progress) : at_(at), progress_(progress) {}
+  const char& operator*() const { return *at_; }
+  WatchedCharacters& operator++() {
+    ++at_;
+    if (progress_ && (reinterpret_cast<std::uintptr_t>(at_) & (kStride - 1)) == 0) progress_->check();
+    return *this;
+  }
+  WatchedCharacters operator++(int) {
+    WatchedCharacters before = *this;
+    ++*this;
+    return before;
+  }
+  bool operator==(const WatchedCharacters& other) const { return at_ == other.at_; }
+
+private:
+  static constexpr std::uintptr_t kStride = 4096; ///< a power of two
+  const char* at_;
+  const ProgressPart* progress_;
+};
+
 constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kMaxNodes = std::size_t{1} << 25;
 
@@ -171,7 +201,10 @@ private:
 JsonTree::JsonTree(std::string file, std::string text, ProgressPart* progress, double share)
     : file_(std::move(file)), text_(std::move(text)) {
   JsonTreeBuilder builder(*this, progress, share);
-  nlohmann::json::sax_parse(text_.begin(), text_.end(), &builder, nlohmann::json::input_format_t::json,
+  const char* begin = text_.data();
+  nlohmann::json::sax_parse(WatchedCharacters(begin, progress),
+                            WatchedCharacters(begin + text_.size(), progress), &builder,
+                            nlohmann::json::input_format_t::json,
                             /*strict=*/true, /*ignore_comments=*/true);
 }
 

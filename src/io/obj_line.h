@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <string_view>
 
 namespace candela {
@@ -21,21 +22,31 @@ inline std::string_view next_word(std::string_view& rest) {
   return word;
 }
 
+/// What a message quotes of a word.
+inline std::string shortened(std::string_view word) { return std::string(word.substr(0, 40)); }
+
 enum class RealWord { good, no_number, not_finite };
 
-/// Whether a word is a number that a float can hold. "nan" and "inf" are not finite; too small is 0.
-inline RealWord check_real(std::string_view word) {
+/// Reads a word as a number that a float can hold. "nan" and "inf" are not finite; too small is 0. Leaves
+/// `value` alone unless it is good.
+inline RealWord parse_real(std::string_view word, double& value) {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
   if (word.empty() || word.front() == '+') return RealWord::no_number;
-  double value = 0;
-  auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), value);
+  double read = 0; // from_chars leaves it 0 below the range of a double
+  auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), read);
   if (status == std::errc::invalid_argument || end != word.data() + word.size()) return RealWord::no_number;
-  if (status == std::errc::result_out_of_range) // it tells not in which direction
-    return word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos
-               ? RealWord::good
-               : RealWord::not_finite;
-  return std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max()) ? RealWord::good
-                                                                                   : RealWord::not_finite;
+  if (status == std::errc::result_out_of_range && word.find("e-") == std::string_view::npos &&
+      word.find("E-") == std::string_view::npos) // it tells not in which direction
+    return RealWord::not_finite;
+  if (!(std::abs(read) <= static_cast<double>(std::numeric_limits<float>::max())))
+    return RealWord::not_finite;
+  value = read;
+  return RealWord::good;
+}
+
+inline RealWord check_real(std::string_view word) {
+  double value = 0;
+  return parse_real(word, value);
 }
 
 } // namespace candela

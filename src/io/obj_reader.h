@@ -19,10 +19,13 @@ struct ObjModel {
 /// usemtl). Vertices are one per (v, vt, vn); a corner without vn is flat (zero normal), without vt it has
 /// uv (0, 0). Indices may be negative (relative) and may run ahead of the vertices they mean. Polygons are
 /// triangulated (io/triangulate.h); degenerate triangles are dropped; lines, points, curves, vertex colours,
-/// groups and smoothing groups are ignored. What is dropped or missing is counted in `warnings`.
+/// groups and smoothing groups are ignored. Positions are read in double precision, and relative to an origin
+/// of the mesh's own where it lies far from the file's (Mesh::origin). What is no number or means nothing
+/// costs its own vertex, attribute or face. Where no library is found, that of the file's own name is taken.
+/// What is dropped, missing or guessed is counted in `warnings`.
 ///
-/// Throws input_error with line and column for words that are no finite numbers, indices out of range and
-/// files without a face; limit_error above 2 GiB or 4096 corners of a polygon.
+/// Throws input_error, with the place of the first loss, if no face is left; limit_error above 2 GiB, 4096
+/// corners of a polygon or 16 MiB of a line; Cancelled.
 ObjModel read_obj(const FoundFile& file, const PathPolicy& policy, MtlDialect dialect, WarningList& warnings);
 
 } // namespace candela

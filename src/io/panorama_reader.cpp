@@ -1,5 +1,6 @@
 #include "io/panorama_reader.h"
 
+#include "io/apart.h"
 #include "io/image_codec.h"
 
 #include <fmt/format.h>
@@ -14,14 +15,15 @@ namespace {
 constexpr float kLargestRadiance = 1e9f;
 
 void make_radiance(Image& image, const Location& where, WarningList& warnings) {
+  make_finite(image, where, warnings);
   bool changed = false;
   for (vec3& pixel : image.pixels)
     for (int c = 0; c < 3; ++c) {
-      float value = pixel[c] > 0 ? std::min(pixel[c], kLargestRadiance) : 0.0f; // NaN: 0
-      changed |= !(value == pixel[c]);
+      const float value = std::clamp(pixel[c], 0.0f, kLargestRadiance);
+      changed |= value != pixel[c];
       pixel[c] = value;
     }
-  if (changed) warnings.add(where, "values below 0, above 1e9 or not numbers are taken for 0 or 1e9");
+  if (changed) warnings.add(where, "values below 0 or above 1e9 are taken for 0 or 1e9");
 }
 
 } // namespace
@@ -31,14 +33,18 @@ std::shared_ptr<const Panorama> read_panorama(std::span<const std::string> paths
   Image& all = panorama->image;
   for (const std::string& path : paths) {
     warnings.check_stop();
-    const Bytes bytes = read_file_bytes(path, "image");
-    ProgressPart progress = warnings.part(path, bytes.size());
-    Image image = decode_image(bytes, {path}, &progress);
-    make_radiance(image, {path}, warnings);
+    auto bytes = std::make_shared<const Bytes>(read_file_bytes(path, "image", &warnings.progress()));
+    ProgressPart progress = warnings.part(path, bytes->size());
+    Image image = run_apart(&progress, &warnings, [bytes, path](ProgressPart* part, WarningList* said) {
+      Image decoded = decode_image(*bytes, {path}, part, said);
+      make_radiance(decoded, {path}, *said);
+      return decoded;
+    });
     if (panorama->sources.empty()) {
       panorama->name = std::filesystem::path(path).filename().string();
       check_image_size({path}, image.width, std::int64_t{image.height} * std::ssize(paths));
       all.width = image.width;
+      if (paths.size() > 1) all.pixels.reserve(image.pixels.size() * paths.size());
     } else if (image.width != all.width ||
                image.height * static_cast<int>(panorama->sources.size()) != all.height) {
       throw input_error({path}, "panorama",
@@ -48,10 +54,11 @@ std::shared_ptr<const Panorama> read_panorama(std::span<const std::string> paths
                         "give six faces of one size");
     }
     all.height += image.height;
-    if (paths.size() == 1)
-      all.pixels = std::move(image.pixels);
-    else
-      all.pixels.insert(all.pixels.end(), image.pixels.begin(), image.pixels.end());
+    if (paths.size() == 1) all.pixels = std::move(image.pixels);
+    for (auto row = image.pixels.begin(); row != image.pixels.end(); row += image.width) {
+      warnings.check_stop();
+      all.pixels.insert(all.pixels.end(), row, row + image.width);
+    }
     panorama->sources.push_back(path);
   }
   return panorama;

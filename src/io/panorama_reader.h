@@ -11,8 +11,9 @@
 namespace candela {
 
 /// Reads one picture, or the six faces of a cube, which are stacked in the order of the files and must be of
-/// one size. Values are brought into [0, 1e9], which is what a light's colour may be, and NaN becomes 0; that
-/// is a warning. Throws as read_image does, and limit_error if the faces together exceed its caps.
+/// one size. Values are brought into [0, 1e9], which is what a light's colour may be; infinite ones become
+/// the largest finite one, but at least 65504, and NaN becomes 0; all that is a warning. Throws as read_image
+/// does, limit_error if the faces together exceed its caps, and Cancelled.
 std::shared_ptr<const Panorama> read_panorama(std::span<const std::string> paths, WarningList& warnings);
 
 /// What is odd about a picture of this size under this mapping; empty if nothing is.

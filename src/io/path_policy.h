@@ -2,8 +2,8 @@
 // Which files a scene may name. A scene is somebody else's input: it may refer to files beside and below it,
 // not to the rest of the disk.
 
-#include "core/error.h"
 #include "io/file_stamp.h"
+#include "io/warning_list.h"
 
 #include <memory>
 #include <optional>
@@ -42,9 +42,19 @@ public:
   /// an absolute path and for a file outside the root, whether it exists or not, unless outside is allowed.
   /// A backslash counts as a slash where the name as it is does not exist, for files written on Windows.
   std::optional<FoundFile> find(const std::string& reference, const std::string& base_folder,
-                                const Location& where, std::string_view element) const;
+                                const Location& where, std::string_view element) const {
+    return find(reference, base_folder, where, element, false);
+  }
 
-  /// The same, but a missing file is an input_error too.
+  /// The same for files that exporters wrote, who name what they had on their own machine: in quotes, by
+  /// absolute paths of any system, by folders that did not travel along, in another case. What is not where
+  /// the name says, or may not be named there, is looked for beside the file that names it, with a warning.
+  /// Throws for a relative name outside the root alone.
+  std::optional<FoundFile> find_exported(std::string reference, const std::string& base_folder,
+                                         const Location& where, std::string_view element,
+                                         WarningList& warnings) const;
+
+  /// The same as find, but a missing file is an input_error too.
   FoundFile require(const std::string& reference, const std::string& base_folder, const Location& where,
                     std::string_view element) const;
 
@@ -53,6 +63,9 @@ public:
   const FileStamps& asked() const { return *asked_; }
 
 private:
+  std::optional<FoundFile> find(const std::string& reference, const std::string& base_folder,
+                                const Location& where, std::string_view element, bool absolute_inside) const;
+
   std::string root_; ///< canonical
   bool allow_outside_;
   std::set<std::string> admitted_;

@@ -18,7 +18,7 @@ bool is_pfm(ByteView bytes) {
   return bytes.size() >= 2 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f');
 }
 
-Image decode_pfm(ByteView bytes, const Location& where) {
+Image decode_pfm(ByteView bytes, const Location& where, ProgressPart* progress) {
   PnmHeader header{bytes, where};
   std::size_t channels = bytes[1] == 'F' ? 3 : 1;
   std::int64_t width = header.integer("width"), height = header.integer("height");
@@ -40,13 +40,15 @@ Image decode_pfm(ByteView bytes, const Location& where) {
     p += 4;
     return std::bit_cast<float>(swap ? __builtin_bswap32(bits) : bits);
   };
-  for (std::size_t y = h; y-- > 0;)
+  for (std::size_t y = h; y-- > 0;) {
+    if (progress) progress->reach(1 - static_cast<double>(y + 1) / static_cast<double>(h));
     for (std::size_t x = 0; x < w; ++x) {
       vec3& pixel = image.pixels[y * w + x];
       pixel.x = next();
       pixel.y = channels == 3 ? next() : pixel.x;
       pixel.z = channels == 3 ? next() : pixel.x;
     }
+  }
   return image;
 }
 

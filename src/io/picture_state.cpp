@@ -1,6 +1,7 @@
 #include "io/picture_state.h"
 
 #include "core/hash.h"
+#include "io/apart.h"
 #include "io/candela_json.h"
 #include "io/file_bytes.h"
 #include "io/image_codec.h"
@@ -26,9 +27,10 @@ constexpr const char* kCrop = "candela.crop";
 
 /// Of a file's content. Not a cryptographic one: it tells files that were edited from those that were not,
 /// and cannot be guessed by whoever does not know the content.
-std::string content_hash(ByteView bytes) {
+std::string content_hash(ByteView bytes, const Progress* progress = nullptr) {
   std::uint64_t hash = bytes.size(), word = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (progress && i % 4096 == 0) progress->check();
     word = word << 8 | bytes[i];
     if (i % 8 == 7) hash = hash_combine(hash, word), word = 0;
   }
@@ -74,7 +76,8 @@ void check_files(const std::string& list, const std::string& path, PathPolicy& p
       continue; // the scene's reader will ask for it
     const auto size = fs::file_size(file, failed);
     if (!failed && size == static_cast<std::uintmax_t>(bytes) &&
-        content_hash(read_file_bytes(file.string(), "scene")) == hash)
+        content_hash(read_file_bytes(file.string(), "scene", &warnings.progress()), &warnings.progress()) ==
+            hash)
       policy.admit(file.string());
     else
       warnings.add({path}, fmt::format("{} is not what it was when the picture was made", name));
@@ -99,23 +102,22 @@ PictureCrop parse_crop(const std::string& text, const FilmSettings& film, const 
   return crop;
 }
 
-/// A text of the picture by its name.
-class PictureTexts {
-public:
-  explicit PictureTexts(const std::string& path) : where_{path}, bytes_(read_file_bytes(path, "picture")) {
-    if (is_png(bytes_))
-      check_png(bytes_, where_);
-    else if (!is_exr(bytes_))
-      throw input_error(where_, "picture", "it is neither PNG nor EXR", "give a picture that Candela saved");
-  }
-  std::optional<std::string> find(const char* name) const {
-    return is_png(bytes_) ? png_text(bytes_, name, where_) : exr_text(bytes_, name, where_);
-  }
-
-private:
-  Location where_;
-  Bytes bytes_;
+/// The texts of a picture.
+struct PictureTexts {
+  std::optional<std::string> scene, files, crop;
 };
+
+PictureTexts texts_of(ByteView bytes, const std::string& path) {
+  const Location where{path};
+  if (is_png(bytes))
+    check_png(bytes, where);
+  else if (!is_exr(bytes))
+    throw input_error(where, "picture", "it is neither PNG nor EXR", "give a picture that Candela saved");
+  auto find = [&](const char* name) {
+    return is_png(bytes) ? png_text(bytes, name, where) : exr_text(bytes, name, where);
+  };
+  return {find(kScene), find(kFiles), find(kCrop)};
+}
 
 } // namespace
 
@@ -133,20 +135,24 @@ ImageMetadata picture_state_texts(const PictureState& state, const std::string& 
   return texts;
 }
 
-bool holds_picture_state(const std::string& path) { return PictureTexts(path).find(kScene).has_value(); }
+bool holds_picture_state(const std::string& path) {
+  return texts_of(read_file_bytes(path, "picture"), path).scene.has_value();
+}
 
 LoadedScene read_picture_state(const std::string& path, const ReadOptions& options, WarningList& warnings) {
-  const PictureTexts texts(path);
-  std::optional<std::string> scene = texts.find(kScene);
-  if (!scene)
+  auto bytes = std::make_shared<const Bytes>(read_file_bytes(path, "picture", &warnings.progress()));
+  ProgressPart progress = warnings.part(path, bytes->size());
+  PictureTexts texts = run_apart(
+      &progress, nullptr, [bytes, path](ProgressPart*, WarningList*) { return texts_of(*bytes, path); });
+  if (!texts.scene)
     throw input_error({path}, "picture", "it holds no scene",
                       "give a PNG or EXR that Candela saved (without --no-state), or a scene");
   PathPolicy policy(folder_of(path), options.allow_outside);
-  if (auto files = texts.find(kFiles)) check_files(*files, path, policy, warnings);
+  if (texts.files) check_files(*texts.files, path, policy, warnings);
   LoadedScene loaded;
-  loaded.document = parse_candela_json(std::move(*scene), path, policy, warnings);
+  loaded.document = parse_candela_json(std::move(*texts.scene), path, policy, warnings);
   loaded.files = policy.asked();
-  if (auto crop = texts.find(kCrop)) loaded.crop = parse_crop(*crop, loaded.document.settings.film, path);
+  if (texts.crop) loaded.crop = parse_crop(*texts.crop, loaded.document.settings.film, path);
   return loaded;
 }
 

@@ -58,7 +58,7 @@ bool is_pnm(ByteView bytes) {
          (bytes[1] == '2' || bytes[1] == '3' || bytes[1] == '5' || bytes[1] == '6');
 }
 
-Image decode_pnm(ByteView bytes, const Location& where) {
+Image decode_pnm(ByteView bytes, const Location& where, ProgressPart* progress) {
   PnmHeader header{bytes, where};
   bool text = bytes[1] == '2' || bytes[1] == '3';
   std::size_t channels = bytes[1] == '3' || bytes[1] == '6' ? 3 : 1;
@@ -91,10 +91,13 @@ Image decode_pnm(ByteView bytes, const Location& where) {
     return linear[static_cast<std::size_t>(value)];
   };
   Image image{static_cast<int>(width), static_cast<int>(height), std::vector<vec3>(w * h)};
-  for (vec3& pixel : image.pixels) {
-    pixel.x = next();
-    pixel.y = channels == 3 ? next() : pixel.x;
-    pixel.z = channels == 3 ? next() : pixel.x;
+  for (std::size_t y = 0; y < h; ++y) {
+    if (progress) progress->reach(static_cast<double>(y) / static_cast<double>(h));
+    for (vec3& pixel : std::span(image.pixels).subspan(y * w, w)) {
+      pixel.x = next();
+      pixel.y = channels == 3 ? next() : pixel.x;
+      pixel.z = channels == 3 ? next() : pixel.x;
+    }
   }
   return image;
 }

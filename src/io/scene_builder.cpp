@@ -47,6 +47,17 @@ int SceneBuilder::texture(const FoundFile& file) {
   return append_texture(file);
 }
 
+int SceneBuilder::texture_or_none(const FoundFile& file, const Location& where) {
+  if (broken_textures_.contains(file.canonical)) return -1;
+  try {
+    return texture(file);
+  } catch (const Error& problem) {
+    broken_textures_.insert(file.canonical);
+    warnings_.add(where, fmt::format("no texture: {}", problem.what()));
+    return -1;
+  }
+}
+
 int SceneBuilder::append_texture(const FoundFile& file) {
   auto known = textures_.find(file.canonical);
   auto texture = known == textures_.end() ? read_texture(file.canonical, warnings_)
@@ -80,7 +91,8 @@ int SceneBuilder::add_material(Material material) {
 int add_mtl_material(SceneBuilder& builder, const MtlMaterial& source, const std::string& name) {
   Material material = source.material;
   material.name = name;
-  if (source.diffuse_texture) material.diffuse_texture = builder.texture(*source.diffuse_texture);
+  if (source.diffuse_texture)
+    material.diffuse_texture = builder.texture_or_none(*source.diffuse_texture, source.texture_where);
   return builder.add_material(std::move(material));
 }
 
@@ -110,6 +122,25 @@ int SceneBuilder::missing_material(const MeshFile& file, std::size_t slot, const
                                     : fmt::format("there is no material '{}': a grey is taken",
                                                   name.substr(0, kLongestName)));
   return default_material();
+}
+
+void SceneBuilder::place(Instance& instance, const glm::dmat4& world_from_object, const Location& where) {
+  const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape);
+  instance.world_from_object =
+      mat4(mesh ? glm::translate(world_from_object, (*mesh)->origin) : world_from_object);
+  if (!mesh) return;
+  // So little of a mesh cannot be seen.
+  constexpr double kInvisible = 0x1p-13;
+  const Bounds3 bounds = instance_bounds({instance});
+  const vec3 most = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
+  const float far = max_component(most);
+  const double size = static_cast<double>(glm::length(bounds.diagonal()));
+  const double step = static_cast<double>(std::nextafter(far, std::numeric_limits<float>::max()) - far);
+  if (size > 0 && step > kInvisible * size)
+    warnings_.add(where,
+                  fmt::format("a mesh of size {:.3g} lies {:.3g} from the origin, where floats are {:.2g} "
+                              "apart: it loses its shape; move the scene to the origin",
+                              size, far, step));
 }
 
 Bounds3 object_bounds(const Shape& shape) { return shape_bounds(shape); }

@@ -39,13 +39,19 @@ public:
 
   /// Index of the picture in SceneDesc::textures; the same file is one texture.
   int texture(const FoundFile& file);
-  /// The same at a new index in any case.
+  /// The same for one that an exporter named at `where`: -1, with a warning, if it cannot be read.
+  int texture_or_none(const FoundFile& file, const Location& where);
+  /// Of a picture at a new index in any case.
   int append_texture(const FoundFile& file);
 
   /// The panorama of a file, or of six; the same files are one.
   std::shared_ptr<const Panorama> panorama(const std::vector<FoundFile>& files);
 
   int add_material(Material material);
+
+  /// Puts an instance, which has its shape, where world_from_object takes the coordinates of the shape's file
+  /// (Mesh::origin). A mesh whose shape floats cannot hold there is a warning that tells the loss.
+  void place(Instance& instance, const glm::dmat4& world_from_object, const Location& where);
 
   /// The MTL's material of a slot, imported as "mesh/slot" when first asked for; -1 where the MTL has none.
   int imported_material(MeshFile& file, std::size_t slot);
@@ -66,7 +72,8 @@ private:
   std::map<std::string, int> textures_;                           ///< by canonical path
   std::map<std::vector<std::string>, std::shared_ptr<const Panorama>> panoramas_; ///< by canonical paths
   std::unordered_set<std::string> material_names_;
-  std::unordered_set<std::string> expected_; ///< as they are named
+  std::unordered_set<std::string> expected_;        ///< as they are named
+  std::unordered_set<std::string> broken_textures_; ///< canonical paths
   int default_material_ = -1;
 };
 

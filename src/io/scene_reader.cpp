@@ -1,5 +1,6 @@
 #include "io/scene_reader.h"
 
+#include "io/apart.h"
 #include "io/cs123_reader.h"
 #include "io/ini_job.h"
 #include "io/picture_state.h"
@@ -18,6 +19,13 @@ Document read_obj_scene(const FoundFile& file, const PathPolicy& policy, Warning
   Instance instance;
   instance.name = mesh.mesh->name;
   instance.shape = mesh.mesh;
+  // The mesh is all that there is: nothing else has to keep its place beside it.
+  if (const glm::dvec3 origin = mesh.mesh->origin; origin != glm::dvec3(0))
+    warnings.add({file.shown},
+                 fmt::format("it lies far from its origin for its size: ({}, {}, {}) is taken for the origin",
+                             static_cast<float>(origin.x), static_cast<float>(origin.y),
+                             static_cast<float>(origin.z)));
+
   for (std::size_t slot = 0; slot < mesh.mesh->slot_names.size(); ++slot) {
     int material = builder.imported_material(mesh, slot);
     if (material < 0) material = builder.missing_material(mesh, slot, {file.shown});
@@ -56,15 +64,13 @@ void read_document(const FoundFile& file, const ReadOptions& options, const Loca
   loaded.files[file.canonical] = stamp;
 }
 
-} // namespace
-
-LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
+LoadedScene read_here(const std::string& path, const ReadOptions& options) {
   WarningList warnings(options.progress);
   warnings.check_stop();
   LoadedScene loaded;
   const FileStamp stamp = file_stamp(path);
   if (lower_ending(path) == ".ini") {
-    IniJob job = read_ini_job(path, options.allow_outside);
+    IniJob job = read_ini_job(path, options.allow_outside, warnings);
     read_document(job.scene, options, {path}, warnings, loaded);
     loaded.document.settings = job.settings;
     if (!job.output.empty()) loaded.output_files.push_back(job.output);
@@ -79,6 +85,14 @@ LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
   if (!has_light(scene)) warnings.add({path}, "nothing in the scene shines: the picture will be black");
   loaded.warnings = warnings.warnings();
   return loaded;
+}
+
+} // namespace
+
+LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
+  options.progress->check();
+  // Readers look at the progress often, but a disk may be slow, and to give gigabytes back takes time, too.
+  return run_while([path, options] { return read_here(path, options); }, [&] { options.progress->check(); });
 }
 
 } // namespace candela

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -49,6 +50,17 @@ void check_bmp(ByteView bytes, const Location& where, std::int64_t pixels) {
     throw damaged_image(where, "the BMP is too short for the size it claims");
 }
 
+/// A TGA says in its descriptor whether its rows run from the right, which stb_image overlooks.
+bool runs_leftwards(ByteView tga) { return (tga[17] & 0x10) != 0; }
+
+void mirror_rows(Picture8& picture) {
+  const auto w = static_cast<std::size_t>(picture.width), h = static_cast<std::size_t>(picture.height);
+  for (std::size_t y = 0; y < h; ++y)
+    for (std::size_t x = 0; x < w / 2; ++x)
+      std::swap_ranges(&picture.rgb[3 * (y * w + x)], &picture.rgb[3 * (y * w + x)] + 3,
+                       &picture.rgb[3 * (y * w + w - 1 - x)]);
+}
+
 Error undecodable(const Location& where) {
   const char* reason = stbi_failure_reason();
   return damaged_image(where,
@@ -85,7 +97,9 @@ Picture8 decode_stb8(ByteView bytes, const Location& where, bool tga) {
   if (!data) throw undecodable(where);
   if (std::pair(width, height) != size) throw damaged_image(where, "its headers disagree about its size");
   std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
-  return {width, height, Bytes(data.get(), data.get() + count)};
+  Picture8 picture{width, height, Bytes(data.get(), data.get() + count)};
+  if (tga && !is_stb_format(bytes) && runs_leftwards(bytes)) mirror_rows(picture);
+  return picture;
 }
 
 Image decode_stb(ByteView bytes, const Location& where, bool tga) {

@@ -1,18 +1,101 @@
 #include "io/text_file.h"
 
 #include "io/file_bytes.h"
+#include "io/warning_list.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 
 namespace candela {
 
-std::string read_text_file(const std::string& path, const char* element, std::size_t max_bytes) {
-  std::string text = read_file_characters(path, element, max_bytes);
-  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
-  if (auto nul = text.find('\0'); nul != std::string::npos)
-    throw input_error(locate(path, text, nul), element, "a NUL byte: this is no text file",
-                      "give a text file in UTF-8");
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+/// So much is looked at between two looks at whether to go on.
+constexpr std::size_t kStride = std::size_t{16} << 20;
+
+/// Calls work(begin, end) for the pieces of [0, size).
+template <class Work>
+void in_pieces(std::size_t size, const WarningList* warnings, Work work) {
+  for (std::size_t begin = 0; begin < size; begin += kStride) {
+    if (warnings) warnings->check_stop();
+    work(begin, std::min(begin + kStride, size));
+  }
+}
+
+void append_utf8(std::string& out, std::uint32_t c) {
+  auto follow = [&](int shift) { out += static_cast<char>(0x80 | (c >> shift & 0x3f)); };
+  if (c < 0x80) {
+    out += static_cast<char>(c);
+  } else if (c < 0x800) {
+    out += static_cast<char>(0xc0 | c >> 6), follow(0);
+  } else if (c < 0x10000) {
+    out += static_cast<char>(0xe0 | c >> 12), follow(6), follow(0);
+  } else {
+    out += static_cast<char>(0xf0 | c >> 18), follow(12), follow(6), follow(0);
+  }
+}
+
+/// Of a text that begins with the byte order mark of either order. Surrogates without their half become
+/// U+FFFD.
+std::string utf8_from_utf16(std::string_view text, const WarningList* warnings) {
+  const bool big_endian = text[0] == '\xfe';
+  auto unit = [&](std::size_t i) {
+    const auto a = static_cast<unsigned char>(text[i]), b = static_cast<unsigned char>(text[i + 1]);
+    return static_cast<std::uint32_t>(big_endian ? a << 8 | b : b << 8 | a);
+  };
+  std::string out;
+  for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
+    if (warnings) warnings->check_stop();
+    std::uint32_t c = unit(i);
+    if (c >= 0xd800 && c < 0xe000) {
+      const std::uint32_t low = c < 0xdc00 && i + 3 < text.size() ? unit(i + 2) : 0;
+      const bool pair = low >= 0xdc00 && low < 0xe000;
+      c = pair ? 0x10000 + ((c - 0xd800) << 10 | (low - 0xdc00)) : 0xfffd;
+      if (pair) i += 2;
+    }
+    append_utf8(out, c);
+  }
+  return out;
+}
+
+void drop_front(std::string& text, std::size_t count, const WarningList* warnings) {
+  const std::size_t left = text.size() - count;
+  in_pieces(left, warnings, [&](std::size_t begin, std::size_t end) {
+    std::memmove(text.data() + begin, text.data() + count + begin, end - begin);
+  });
+  text.resize(left);
+}
+
+void drop_end(std::string& text, const std::string& path, WarningList* warnings) {
+  auto is_filler = [](char c) { return c == '\0' || c == '\x1a'; };
+  std::size_t end = text.size();
+  while (end > 0 && is_filler(text[end - 1])) --end;
+  if (end < text.size() && warnings)
+    warnings->add({path}, fmt::format("{} bytes at the end that are no text are ignored", text.size() - end));
+  text.resize(end);
+  if (text.size() > kByteOrderMark.size() && text.ends_with(kByteOrderMark))
+    text.resize(text.size() - kByteOrderMark.size());
+}
+
+} // namespace
+
+std::string read_text_file(const std::string& path, const char* element, std::size_t max_bytes,
+                           WarningList* warnings) {
+  const Progress* progress = warnings ? &warnings->progress() : nullptr;
+  std::string text = read_file_characters(path, element, max_bytes, progress);
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) text = utf8_from_utf16(text, warnings);
+  drop_end(text, path, warnings);
+  if (text.starts_with(kByteOrderMark)) drop_front(text, kByteOrderMark.size(), warnings);
+  in_pieces(text.size(), warnings, [&](std::size_t begin, std::size_t end) {
+    if (const void* nul = std::memchr(text.data() + begin, 0, end - begin))
+      throw input_error(
+          locate(path, text, static_cast<std::size_t>(static_cast<const char*>(nul) - text.data())), element,
+          "a NUL byte: this is no text file", "give a text file in UTF-8");
+  });
   return text;
 }
 

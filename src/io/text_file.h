@@ -9,10 +9,16 @@
 
 namespace candela {
 
-/// Reads a text file whole; a UTF-8 byte order mark is dropped. Throws input_error if it is missing, no
-/// regular file or holds a NUL byte (then it is no text), limit_error above max_bytes, before it allocates.
-/// `element` says in messages what the file was to be ("scene", "mesh").
-std::string read_text_file(const std::string& path, const char* element, std::size_t max_bytes);
+class WarningList;
+
+/// Reads a text file whole, as UTF-8, also where its byte order mark says that it is UTF-16 (Windows' editors
+/// write it). A UTF-8 byte order mark at either end is dropped, and NUL bytes and the end mark
+/// of DOS (0x1a) at the end, which programs leave that write whole blocks; those are a warning, if there is a
+/// list of them. Throws input_error if it is missing, no regular file or holds another NUL byte (then it is
+/// no text), limit_error above max_bytes, before it allocates, and Cancelled when the warnings' progress says
+/// so. `element` says in messages what the file was to be ("scene", "mesh").
+std::string read_text_file(const std::string& path, const char* element, std::size_t max_bytes,
+                           WarningList* warnings = nullptr);
 
 /// The line and column (from 1, in bytes) of text[offset]; offset == text.size() is the end of the file.
 Location locate(const std::string& file, std::string_view text, std::size_t offset);

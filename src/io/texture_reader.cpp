@@ -1,6 +1,7 @@
 #include "io/texture_reader.h"
 
 #include "core/color.h"
+#include "io/apart.h"
 #include "io/image_codec.h"
 
 #include <filesystem>
@@ -29,6 +30,16 @@ Picture8 picture_of(const Image& image) {
   return picture;
 }
 
+Picture8 decode(ByteView bytes, const std::string& path, ProgressPart* progress, WarningList& warnings) {
+  const Location where{path};
+  if (is_stb_format(bytes)) return decode_stb8(bytes, where);
+  if (is_jpg(bytes)) return decode_jpg(bytes, where, progress);
+  if (ends_in_tga(path)) return decode_stb8(bytes, where, true);
+  Image image = decode_image(bytes, where, progress, &warnings);
+  make_finite(image, where, warnings);
+  return picture_of(image);
+}
+
 } // namespace
 
 std::shared_ptr<const Texture> read_texture(const std::string& path) {
@@ -37,19 +48,12 @@ std::shared_ptr<const Texture> read_texture(const std::string& path) {
 }
 
 std::shared_ptr<const Texture> read_texture(const std::string& path, WarningList& warnings) {
-  Location where{path};
   warnings.check_stop();
-  Bytes bytes = read_file_bytes(path, "image");
-  ProgressPart progress = warnings.part(path, bytes.size());
-  Picture8 picture;
-  if (is_stb_format(bytes))
-    picture = decode_stb8(bytes, where);
-  else if (is_jpg(bytes))
-    picture = decode_jpg(bytes, where, &progress);
-  else if (ends_in_tga(path))
-    picture = decode_stb8(bytes, where, true);
-  else
-    picture = picture_of(decode_image(bytes, where, &progress));
+  auto bytes = std::make_shared<const Bytes>(read_file_bytes(path, "image", &warnings.progress()));
+  ProgressPart progress = warnings.part(path, bytes->size());
+  Picture8 picture = run_apart(&progress, &warnings, [bytes, path](ProgressPart* part, WarningList* said) {
+    return decode(*bytes, path, part, *said);
+  });
   auto texture = std::make_shared<Texture>();
   texture->name = std::filesystem::path(path).filename().string();
   texture->source = path;

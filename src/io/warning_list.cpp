@@ -25,19 +25,28 @@ ProgressPart WarningList::part(const std::string& canonical, std::size_t bytes) 
 }
 
 void WarningList::add(const Location& where, std::string_view text) {
+  add(fmt::format("{}\n{}", where.file, text), {fmt::format("{}: {}", to_string(where), text), 1});
+}
+
+void WarningList::add(const WarningList& other) {
+  std::vector<const std::string*> keys(other.warnings_.size());
+  for (const auto& [key, index] : other.index_) keys[index] = &key;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    add(keys[i] ? *keys[i] : other.warnings_[i].text, other.warnings_[i]);
+}
+
+void WarningList::add(std::string key, const Warning& warning) {
   // A hostile file could say something different in every line: beyond this many, all the rest is one.
   constexpr std::size_t kMaxDistinct = 200;
-  std::string key = fmt::format("{}\n{}", where.file, text);
-  std::string shown = fmt::format("{}: {}", to_string(where), text);
   if (auto known = index_.find(key); known != index_.end()) {
-    ++warnings_[known->second].count;
+    warnings_[known->second].count += warning.count;
   } else if (warnings_.size() < kMaxDistinct) {
     index_.emplace(std::move(key), warnings_.size());
-    warnings_.push_back({std::move(shown), 1});
+    warnings_.push_back(warning);
   } else if (warnings_.size() == kMaxDistinct) {
-    warnings_.push_back({"further warnings", 1});
+    warnings_.push_back({"further warnings", warning.count});
   } else {
-    ++warnings_.back().count;
+    warnings_.back().count += warning.count;
   }
 }
 

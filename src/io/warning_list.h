@@ -28,14 +28,19 @@ public:
       : progress_(std::move(progress)) {}
   /// To be called wherever a reader may be for long; throws Cancelled.
   void check_stop() const { progress_->check(); }
+  const Progress& progress() const { return *progress_; }
   /// Counts a file that will be read, so that the share is of all that is known to come.
   void expect_file(const std::string& canonical);
   /// The part of the progress that is one file.
   ProgressPart part(const std::string& canonical, std::size_t bytes);
   void add(const Location& where, std::string_view text);
+  /// Those of another list.
+  void add(const WarningList& other);
   const std::vector<Warning>& warnings() const { return warnings_; }
 
 private:
+  void add(std::string key, const Warning& warning);
+
   std::shared_ptr<Progress> progress_;
   std::map<std::string, std::uint64_t> expected_; ///< bytes of files that were not read yet, by path
   std::vector<Warning> warnings_;

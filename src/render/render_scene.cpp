@@ -87,6 +87,7 @@ void RenderScene::add_materials(const Document& document) {
       s.bsdf = make_bsdf(m);
       if (m.diffuse_texture >= 0)
         s.diffuse_texture = textures_[static_cast<std::size_t>(m.diffuse_texture)].get();
+      s.diffuse_uv = m.diffuse_uv;
     }
     s.opacity = m.opacity;
     s.emission = m.emission;
@@ -240,7 +241,8 @@ std::size_t RenderScene::memory_bytes() const {
 
 Bsdf evaluate_bsdf(const SurfaceMaterial& material, vec2 uv) {
   Bsdf bsdf = material.bsdf;
-  vec3 texel = lookup_bilinear(*material.diffuse_texture, uv);
+  vec3 texel =
+      lookup_bilinear(*material.diffuse_texture, material.diffuse_uv.scale * uv + material.diffuse_uv.offset);
   if (auto* d = std::get_if<Diffuse>(&bsdf))
     d->reflectance *= texel;
   else if (auto* p = std::get_if<Phong>(&bsdf))

@@ -16,6 +16,7 @@ inline constexpr std::uint16_t kNoInterior = 0xffff;
 struct SurfaceMaterial {
   Bsdf bsdf;
   const Texture* diffuse_texture = nullptr; ///< multiplies the BSDF's diffuse part; null: none
+  UvTransform diffuse_uv;                   ///< of that texture
   vec3 emission{0};                         ///< W/(m^2 sr)
   float opacity = 1;
   bool emissive = false;

@@ -36,7 +36,8 @@ Invalidates compare_materials(const std::vector<Material>& a, const std::vector<
       if (!field_equal(row, row.address(const_cast<Material&>(a[i])),
                        row.address(const_cast<Material&>(b[i]))))
         worst = std::max(worst, row.invalidates);
-    if (a[i].diffuse_texture != b[i].diffuse_texture) worst = std::max(worst, Invalidates::image);
+    if (a[i].diffuse_texture != b[i].diffuse_texture || a[i].diffuse_uv != b[i].diffuse_uv)
+      worst = std::max(worst, Invalidates::image);
   }
   return worst;
 }
@@ -192,6 +193,9 @@ std::string document_problem(const Document& document) {
     if (material.diffuse_texture < -1 || material.diffuse_texture >= static_cast<int>(scene.textures.size()))
       return fmt::format("materials[{}].diffuse_texture: there is no texture {}", i,
                          material.diffuse_texture);
+    const UvTransform& uv = material.diffuse_uv;
+    if (!is_finite(vec3(uv.scale, 0)) || !is_finite(vec3(uv.offset, 0)))
+      return fmt::format("materials[{}].diffuse_uv_scale: not finite; give finite numbers", i);
   }
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const LightDesc& light = scene.lights[i];

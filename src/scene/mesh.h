@@ -14,6 +14,9 @@ struct Mesh {
   std::string name;
   std::string
       source; ///< the file it came from, for messages and for writing it back by reference; may be empty
+  /// In the file's coordinates: positions are relative to it, so that they keep their shape in floats however
+  /// far they lie from the file's origin. Instances hold it in their transform.
+  glm::dvec3 origin{0};
   std::vector<vec3> positions;
   std::vector<vec3>
       normals; ///< unit, per vertex; empty: flat. A zero normal means: flat at this vertex's triangles.

@@ -37,6 +37,12 @@ struct Camera {
   }
 };
 
+/// Where a texture is looked up: at scale * uv + offset.
+struct UvTransform {
+  vec2 scale{1}, offset{0};
+  bool operator==(const UvTransform&) const = default;
+};
+
 enum class MaterialType : int { diffuse, phong, ggx, mirror, dielectric };
 
 /// One flat struct for every type, so that a live switch of the type keeps what both types know.
@@ -45,6 +51,7 @@ struct Material {
   MaterialType type = MaterialType::diffuse;
   vec3 diffuse{0.5f};              ///< Lambertian reflectance (diffuse, phong, mirror)
   int diffuse_texture = -1;        ///< index into SceneDesc::textures, multiplies `diffuse`; -1: none
+  UvTransform diffuse_uv;          ///< of that texture
   vec3 specular{0};                ///< specular reflectance; at normal incidence for ggx (F0)
   float exponent = 40;             ///< of the Phong lobe
   float roughness = 0.3f;          ///< of ggx: alpha = roughness^2

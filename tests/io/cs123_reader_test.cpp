@@ -111,6 +111,48 @@ TEST_F(Cs123Reader, GlassAbsorbsByTf) {
   EXPECT_EQ(glass.transmittance, vec3(1));
 }
 
+TEST_F(Cs123Reader, TfOfOnesIsClearAndAnyOtherIsToldOf) {
+  files.write("m/g.obj", "mtllib g.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl g\nf 1 2 3\n");
+  auto glass = [&](const std::string& tf) {
+    files.write("m/g.mtl", "newmtl g\nTf " + tf + "\nNi 1.5\nillum 7\n");
+    return read(root("<object type='primitive' name='mesh' filename='m/g.obj'/>"));
+  };
+  auto clear = glass("1 1 1");
+  EXPECT_EQ(clear.document.scene.materials[0].absorption, vec3(0));
+  EXPECT_EQ(clear.warnings.size(), 1u) << "that nothing shines";
+  auto tinted = glass("0.9 0.5 0.25");
+  EXPECT_EQ(tinted.document.scene.materials[0].absorption, vec3(0.9f, 0.5f, 0.25f));
+  EXPECT_EQ(files.warnings(tinted)[0],
+            "1 x m/g.mtl:1:1: material 'g': Tf 0.9 0.5 0.25 is read as absorption per unit of length");
+}
+
+TEST_F(Cs123Reader, KsIsAReflectance) {
+  files.write("m/g.obj", "mtllib g.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl g\nf 1 2 3\n");
+  files.write("m/g.mtl", "newmtl g\nKd 0.486 0.631 0.663\nKs 0.9 0.9 0.9\nNs 40\nillum 2\n");
+  Material m =
+      read(root("<object type='primitive' name='mesh' filename='m/g.obj'/>")).document.scene.materials[0];
+  EXPECT_EQ(m.specular, vec3(0.9f));
+  EXPECT_LT(glm::length(m.diffuse - vec3(0.1f)), 1e-6f);
+}
+
+TEST_F(Cs123Reader, PathsOfOtherMachinesMeanTheFileBeside) {
+  files.write("t.png", test::tiny_png());
+  auto loaded =
+      read(root("<object type='primitive' name='sphere'><texture file='/course/cs123/data/t.png' u='2' "
+                "v='3'/></object>"));
+  const Material& m = loaded.document.scene.materials[0];
+  EXPECT_EQ(m.diffuse_texture, 0);
+  EXPECT_EQ(m.diffuse_uv.scale, vec2(2, 3));
+  EXPECT_TRUE(test::says(files.without_folder(loaded.warnings[0].text), "s.xml:2:", {"'t.png' is taken"}));
+  loaded = read(root("<object type='primitive' name='sphere'><texture file='/course/none.png'/></object>"));
+  EXPECT_EQ(loaded.document.scene.materials[0].diffuse_texture, -1);
+  files.write("broken.png", "no picture");
+  loaded = read(root("<object type='primitive' name='sphere'><texture file='broken.png'/></object>"));
+  EXPECT_EQ(loaded.document.scene.materials[0].diffuse_texture, -1);
+  EXPECT_TRUE(
+      test::says(files.without_folder(loaded.warnings[0].text), "s.xml:2:", {"no texture: ", "broken.png"}));
+}
+
 TEST_F(Cs123Reader, OwnMaterials) {
   Material m = own("<diffuse r='0.5' g='0.25' b='0'/><ambient r='1' g='1' b='1'/>");
   EXPECT_EQ(m.type, MaterialType::diffuse);

@@ -250,5 +250,27 @@ TEST(ImageFile, WrongFormatsForAPictureAreUsageErrors) {
   EXPECT_EQ(code_of([&] { write_linear_image(Image{}, folder / "a.exr"); }), ExitCode::output);
 }
 
+/// A TGA of 3 x 2 texels, which are 0, 1, 2 and 3, 4, 5 in its file.
+std::string tga(int descriptor) {
+  std::string out = std::string{0, 0, 2} + std::string(9, '\0') + std::string{3, 0, 2, 0, 24};
+  out += static_cast<char>(descriptor);
+  for (int i = 0; i < 6; ++i) out += std::string(3, static_cast<char>(i));
+  return out;
+}
+
+TEST(ImageTga, RowsAndColumnsRunAsItSays) {
+  ScratchFolder folder;
+  const std::pair<int, std::vector<int>> kCases[] = {{0x00, {3, 4, 5, 0, 1, 2}},
+                                                     {0x20, {0, 1, 2, 3, 4, 5}},
+                                                     {0x10, {5, 4, 3, 2, 1, 0}},
+                                                     {0x30, {2, 1, 0, 5, 4, 3}}};
+  for (const auto& [descriptor, expected] : kCases) {
+    test::write_text(folder / "a.tga", tga(descriptor));
+    const auto texture = read_texture(folder / "a.tga");
+    for (std::size_t i = 0; i < 6; ++i)
+      EXPECT_EQ(texture->srgb[3 * i], expected[i]) << descriptor << " " << i;
+  }
+}
+
 } // namespace
 } // namespace candela

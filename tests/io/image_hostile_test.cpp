@@ -172,7 +172,9 @@ TEST(ImageHostile, KnownMalformedFiles) {
   fs::path folder = fs::path(CANDELA_SHARED_DATA) / "malformed";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
   int count = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+  for (fs::recursive_directory_iterator it(folder); it != fs::recursive_directory_iterator(); ++it) {
+    const fs::directory_entry& entry = *it;
+    if (entry.path().filename() == "gltf") it.disable_recursion_pending(); // scenes: their pictures are whole
     if (!entry.is_regular_file()) continue;
     ++count;
     EXPECT_NE(outcome(entry.path().string()), ExitCode::done) << entry.path();

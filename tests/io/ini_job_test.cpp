@@ -44,6 +44,20 @@ TEST_F(IniJobs, SettingsInTheTermsOfTheTable) {
   EXPECT_TRUE(loaded.output_files.empty());
 }
 
+// As QSettings has it.
+TEST_F(IniJobs, CommentsMayFollowValues) {
+  files.write("j.ini",
+              "[IO] ; where\nscene = s.xml ; the scene\noutput = \"a;b.png\" ; in quotes\n"
+              "[Settings];\nimageWidth = 32 ; width\nimageHeight=48;height\ndirectLightingOnly = True\n");
+  auto loaded = files.read("j.ini");
+  EXPECT_EQ(loaded.document.settings.film.width, 32);
+  EXPECT_EQ(loaded.document.settings.film.height, 48);
+  EXPECT_EQ(loaded.document.settings.path.max_depth, 2);
+  EXPECT_EQ(loaded.output_files, std::vector<std::string>{"a;b.png"});
+  files.write("j.ini", "[Settings]\nimageWidth = ; none\n");
+  EXPECT_TRUE(test::says(files.error("j.ini"), "j.ini:2:", {"no value"}));
+}
+
 TEST_F(IniJobs, TheSceneIsLookedForAbove) {
   auto job = [&](const std::string& name, const std::string& scene) {
     files.write(name, "[IO]\nscene = " + scene + "\n");

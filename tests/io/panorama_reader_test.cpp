@@ -32,8 +32,23 @@ TEST_F(PanoramaReader, CorrectsWhatCannotBeRadiance) {
   auto sky = read({"sky.pfm"});
   EXPECT_EQ(sky->name, "sky.pfm");
   EXPECT_EQ(sky->image.pixels, (std::vector<vec3>{{0, 1e9f, 0}, {1, 1e9f, 3}}));
-  ASSERT_EQ(warnings.warnings().size(), 1u);
-  EXPECT_TRUE(test::says(files.without_folder(warnings.warnings()[0].text), "sky.pfm: values below 0"));
+  ASSERT_EQ(warnings.warnings().size(), 3u);
+  EXPECT_TRUE(
+      test::says(files.without_folder(warnings.warnings()[0].text), "sky.pfm: 1 values are infinite"));
+  EXPECT_TRUE(
+      test::says(files.without_folder(warnings.warnings()[1].text), "sky.pfm: 1 values are not numbers"));
+  EXPECT_TRUE(test::says(files.without_folder(warnings.warnings()[2].text), "sky.pfm: values below 0"));
+}
+
+// Of a half that is infinite no more is known than that it was above 65504.
+TEST_F(PanoramaReader, InfinityIsMoreThanAHalfHolds) {
+  Image image = grey(2, 1);
+  image.pixels = {{kInfinity, 1, 1}, {836, -kInfinity, 3}};
+  write_linear_image(image, files / "sky.pfm");
+  EXPECT_EQ(read({"sky.pfm"})->image.pixels, (std::vector<vec3>{{65504, 1, 1}, {836, 0, 3}}));
+  image.pixels[1].x = 1e6f;
+  write_linear_image(image, files / "brighter.pfm");
+  EXPECT_EQ(read({"brighter.pfm"})->image.pixels[0].x, 1e6f) << "nor less than what is finite beside it";
 }
 
 TEST_F(PanoramaReader, StacksFacesInTheirOrder) {

@@ -73,7 +73,7 @@ TEST_F(ReadProgressTest, CancelledNoPictureIsDecoded) {
 
 // Between rows, that is, also once the file is in memory.
 TEST_F(ReadProgressTest, LargeDecodersEndBetweenRows) {
-  for (const char* name : {"sky.hdr", "sky.exr", "t.jpg"}) {
+  for (const char* name : {"sky.hdr", "sky.exr", "sky.pfm", "t.jpg", "t.ppm"}) {
     const Bytes bytes = read_file_bytes(files / name, "image");
     Progress progress;
     progress.expect(1000000);

@@ -185,6 +185,7 @@ TEST(CompareDocuments, StructureRebuildsTheSceneAndNamesDoNot) {
   EXPECT_EQ(cost([](SceneDesc& s) { s.instances[1].shape = SphereShape{3}; }), Invalidates::scene);
   EXPECT_EQ(cost([](SceneDesc& s) { s.textures.clear(); }), Invalidates::scene);
   EXPECT_EQ(cost([](SceneDesc& s) { s.materials[0].diffuse_texture = 0; }), Invalidates::image);
+  EXPECT_EQ(cost([](SceneDesc& s) { s.materials[0].diffuse_uv.offset.x = 1; }), Invalidates::image);
   EXPECT_EQ(cost([](SceneDesc& s) { s.materials[0].name = "x"; }), Invalidates::nothing);
 }
 
@@ -230,6 +231,8 @@ TEST(DocumentProblem, NamesWhatIsWrong) {
   EXPECT_PRED2(starts,
                problem([](Document& d) { d.scene.materials[1].type = static_cast<MaterialType>(77); }),
                "materials[1].type");
+  EXPECT_PRED2(starts, problem([](Document& d) { d.scene.materials[0].diffuse_uv.scale.y = kInfinity; }),
+               "materials[0].diffuse_uv_scale");
   EXPECT_PRED2(starts, problem([](Document& d) { d.scene.materials[0].diffuse_texture = 1; }),
                "materials[0].diffuse_texture");
   EXPECT_PRED2(starts, problem([](Document& d) { d.scene.lights[0].color.g = INFINITY; }), "lights[0].color");
