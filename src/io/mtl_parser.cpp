@@ -4,13 +4,19 @@
 #include "io/text_file.h"
 
 #include <fmt/format.h>
+#include <tiny_obj_loader.h>
 
 #include <algorithm>
+#include <map>
+#include <sstream>
 
 namespace candela {
 
 namespace {
 
+/// tinyobj reads the values; but it takes what is no number for 0 without a word, reads past the meaning of
+/// short lines, fills in defaults for what was not said, and knows no places. So each statement is looked at
+/// here first, and tinyobj gets those that fit.
 class MtlParser {
 public:
   MtlParser(const std::string& file, WarningList& warnings) : file_(file), warnings_(warnings) {}
@@ -40,6 +46,30 @@ public:
 
   std::vector<MtlStatements> materials;
 
+  /// When all lines are read.
+  void take_values() {
+    std::vector<tinyobj::material_t> read;
+    std::map<std::string, int> index;
+    std::string ignored_warnings, ignored_errors; // there is nothing left that it could complain of
+    std::istringstream text(fitting_);
+    tinyobj::LoadMtl(&index, &read, &text, &ignored_warnings, &ignored_errors);
+    for (std::size_t i = 0; i < std::min(read.size(), materials.size()); ++i) {
+      const tinyobj::material_t& from = read[i];
+      MtlStatements& m = materials[i];
+      auto take = [](std::optional<vec3>& said, const tinyobj::real_t(&c)[3]) {
+        if (said) said = vec3(c[0], c[1], c[2]);
+      };
+      take(m.kd, from.diffuse);
+      take(m.ks, from.specular);
+      take(m.ke, from.emission);
+      take(m.tf, from.transmittance);
+      if (m.ns) m.ns = from.shininess;
+      if (m.ni) m.ni = from.ior;
+      if (m.d) m.d = from.dissolve;
+      if (m.illum) m.illum = from.illum;
+    }
+  }
+
 private:
   static std::string shown(std::string_view word) { return utf8_name(shortened(word)); }
 
@@ -52,6 +82,7 @@ private:
     materials.emplace_back();
     materials.back().name = name;
     materials.back().where = where_;
+    fitting_ += fmt::format("newmtl {}\n", materials.size()); // a name that cannot be misread
   }
 
   bool real(std::string_view word, float& value) {
@@ -81,6 +112,7 @@ private:
     }
     MtlStatements& m = materials.back();
     (key_ == "Kd" ? m.kd : key_ == "Ks" ? m.ks : key_ == "Ke" ? m.ke : m.tf) = c;
+    fitting_ += fmt::format("{} {} {} {}\n", key_, c.x, c.y, c.z);
   }
 
   void number_statement(std::string_view rest) {
@@ -91,6 +123,7 @@ private:
     float value = 0;
     if (!real(next_word(rest), value)) return;
     MtlStatements& m = materials.back();
+    std::string_view said = key_;
     if (key_ == "illum") {
       if (!(value >= 0 && value <= 10 && value == std::floor(value)))
         return ignore(fmt::format("there is no illumination model {}", value));
@@ -98,10 +131,13 @@ private:
     } else if (key_ == "d") {
       m.d = value, d_said_ = materials.size();
     } else if (key_ == "Tr") {
-      if (d_said_ != materials.size()) m.d = 1 - value; // where both stand, d counts
+      if (d_said_ == materials.size()) return; // where both stand, d counts
+      value = 1 - value, said = "d";
+      m.d = value;
     } else {
       (key_ == "Ns" ? m.ns : m.ni) = value;
     }
+    fitting_ += fmt::format("{} {}\n", said, value);
   }
 
   void map(std::string_view rest) {
@@ -117,6 +153,7 @@ private:
   Location where_; ///< of the statement at hand
   std::string_view key_;
   std::size_t d_said_ = 0; ///< the number of the material that said d
+  std::string fitting_;    ///< the statements that fit
 };
 
 } // namespace
@@ -124,6 +161,7 @@ private:
 std::vector<MtlStatements> parse_mtl(TextLines& lines, const std::string& file, WarningList& warnings) {
   MtlParser parser(file, warnings);
   while (lines.next()) parser.line(lines.line(), lines.number());
+  parser.take_values();
   return std::move(parser.materials);
 }
 
