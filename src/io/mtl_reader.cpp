@@ -35,6 +35,7 @@ public:
     case 8:
       out.type = MaterialType::mirror;
       out.specular = specular;
+      if (!said_.kd && !said_.map_kd) out.diffuse = default_material(out.type).diffuse;
       break;
     case 4:
     case 6:

@@ -86,7 +86,7 @@ TEST(AbsorptionRender, TheInnermostBodyAbsorbs) {
 
 TEST(AbsorptionRender, ALensMayStandOnBothSidesOfASurface) {
   // The camera in glass, most of its lens outside: rays of either side end on the lamp.
-  SceneMaker s(8, 1, 2048);
+  SceneMaker s(64, 4, 256);
   s.rectangle({0, 0, 0}, {0, 50, 0}, {0, 0, 50}, glass(s, vec3(1))); // the inside is x < 0
   s.rectangle({-50, 0, 0}, {0, 0, 50}, {0, 50, 0}, 0);               // closed far away
   s.disc({0, 0, -4}, 40, {1, 0, 0}, {0, 1, 0}, s.diffuse(vec3(0), vec3(1)));
