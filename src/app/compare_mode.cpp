@@ -317,7 +317,8 @@ void CompareMode::describe(CompareState& state, const Edited& edited) const {
     side.status = session(state, edited, i).status();
     side.label = distinct_settings(document(state, edited, i), document(state, edited, 1 - i), 3);
     const Measured& measured = measured_[static_cast<std::size_t>(i)];
-    const bool is_current = measured.generation == side.status.generation;
+    // Of the newest accumulation: edits that restart nothing, as of the exposure, make no new one.
+    const bool is_current = measured.generation >= side.status.restarting;
     side.rel_mse = is_current && state.has_reference ? measured.rel_mse : std::nullopt;
     side.noise = is_current ? measured.noise : std::nullopt;
   }
