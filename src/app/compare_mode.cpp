@@ -326,7 +326,7 @@ void CompareMode::describe(CompareState& state, const Edited& edited) const {
                           state.has_reference ? "relMSE" : kNoiseName);
 }
 
-void CompareMode::export_figure(const CompareState& state, const Edited& edited) {
+void CompareMode::export_figure(const CompareState& state, const Edited& edited, TaskThread& writer) {
   ComparisonFigure source;
   for (int i = 0; i < 2; ++i) {
     const auto index = static_cast<std::size_t>(i);
@@ -338,7 +338,7 @@ void CompareMode::export_figure(const CompareState& state, const Edited& edited)
   source.with_sign = state.with_sign;
   source.range = state.range;
   source.plot = state.plot;
-  analyst_.post(
+  writer.post(
       [this, source = std::move(source), folder = options_.folder.string()]() -> TaskThread::Completion {
         try {
           return [this, path = write_comparison_figure(source, folder)] {
