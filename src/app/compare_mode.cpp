@@ -317,7 +317,8 @@ void CompareMode::describe(CompareState& state, const Edited& edited) const {
     side.status = session(state, edited, i).status();
     side.label = distinct_settings(document(state, edited, i), document(state, edited, 1 - i), 3);
     const Measured& measured = measured_[static_cast<std::size_t>(i)];
-    const bool is_current = measured.generation == side.status.generation;
+    // Of the newest accumulation: edits that restart nothing, as of the exposure, make no new one.
+    const bool is_current = measured.generation >= side.status.restarting;
     side.rel_mse = is_current && state.has_reference ? measured.rel_mse : std::nullopt;
     side.noise = is_current ? measured.noise : std::nullopt;
   }
@@ -325,7 +326,7 @@ void CompareMode::describe(CompareState& state, const Edited& edited) const {
                           state.has_reference ? "relMSE" : kNoiseName);
 }
 
-void CompareMode::export_figure(const CompareState& state, const Edited& edited) {
+void CompareMode::export_figure(const CompareState& state, const Edited& edited, TaskThread& writer) {
   ComparisonFigure source;
   for (int i = 0; i < 2; ++i) {
     const auto index = static_cast<std::size_t>(i);
@@ -337,7 +338,7 @@ void CompareMode::export_figure(const CompareState& state, const Edited& edited)
   source.with_sign = state.with_sign;
   source.range = state.range;
   source.plot = state.plot;
-  analyst_.post(
+  writer.post(
       [this, source = std::move(source), folder = options_.folder.string()]() -> TaskThread::Completion {
         try {
           return [this, path = write_comparison_figure(source, folder)] {

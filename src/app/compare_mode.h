@@ -65,8 +65,8 @@ public:
 
   /// Newest false-colour difference; null before the first.
   const std::shared_ptr<const DisplayImage>& difference() const { return difference_; }
-  /// Writes a figure of both pictures, their difference and the plot, under a new name.
-  void export_figure(const CompareState& state, const Edited& edited);
+  /// Writes a figure of both pictures, their difference and the plot, under a new name, on `writer`.
+  void export_figure(const CompareState& state, const Edited& edited, TaskThread& writer);
 
 private:
   struct Reference {

@@ -174,12 +174,12 @@ void Inspector::draw_focus_plane(const ViewerState& state, const PixelRect& pict
       ImVec2(0, 0), ImVec2(end.x, end.y));
 }
 
-void Inspector::draw(Ui& ui, ViewerState& state, const PixelRect& picture, const PixelRect& free,
+void Inspector::draw(Ui& ui, ViewerState& state, const PixelRect& picture, const PixelRect& free, vec2 clear,
                      double now) {
   draw_focus_plane(state, picture);
   draw_focus_mark(ui, state, picture, now);
   legend_overlay(ui, state, vec2(free.x, free.y + free.height));
-  probe_overlay(ui, state, picture, vec2(free.x, free.y));
+  probe_overlay(ui, state, picture, clear);
 }
 
 } // namespace candela

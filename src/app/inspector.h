@@ -29,8 +29,10 @@ public:
   void update(ViewerState& state, const RenderSession& session, const PixelRect& picture,
               std::optional<vec2> mouse);
 
-  /// The overlays, within `free`, the part of the window that no panel covers. `now` as of Viewer::frame().
-  void draw(Ui& ui, ViewerState& state, const PixelRect& picture, const PixelRect& free, double now);
+  /// The overlays, within `free`, the part of the window that no panel covers, those at its top from `clear`
+  /// on. `now` as of Viewer::frame().
+  void draw(Ui& ui, ViewerState& state, const PixelRect& picture, const PixelRect& free, vec2 clear,
+            double now);
 
   /// Puts the mark of a new focus for a while.
   static void mark_focus(ViewerState& state, const Pick& pick, double now);

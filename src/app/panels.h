@@ -34,9 +34,9 @@ void panel_column(Ui& ui, ViewerState& state, vec2 position, vec2 size);
 /// The line along the bottom: progress, speed, what is going on.
 void status_line(Ui& ui, ViewerState& state, vec2 position, vec2 size);
 
-/// The strips over the picture that tell what is being loaded and what went wrong, and ask; the rest of the
-/// window goes on working.
-void message_strips(Ui& ui, ViewerState& state, vec2 position, float width);
+/// The strips over the picture, at the top of `room`, that ask, and tell what is being loaded and what went
+/// wrong; the rest of the window goes on working.
+void message_strips(Ui& ui, ViewerState& state, vec2 position, vec2 room);
 
 /// Every key, over the picture.
 void help_overlay(Ui& ui, ViewerState& state, vec2 center, vec2 room);

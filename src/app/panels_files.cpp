@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h> // which window lies over which
 
 #include <algorithm>
+#include <utility>
 
 namespace candela {
 
@@ -30,6 +32,9 @@ public:
                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                          ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize))
       content();
+    // Whatever came or was clicked later: nothing of the picture lies over what is told about it.
+    if (ImGui::GetCurrentContext()->OpenPopupStack.empty())
+      ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
     position_.y += ImGui::GetWindowHeight();
     ImGui::End();
     ImGui::PopStyleColor();
@@ -51,6 +56,7 @@ public:
     return ui_.button(name, label, tip, button_width());
   }
   float button_width() const { return 84 * ui_.scale(); }
+  float bottom() const { return position_.y; }
 
 private:
   Ui& ui_;
@@ -98,12 +104,20 @@ void save_as(Ui& ui, ViewerState& state, Strips& strips, float width) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float field =
       width - ImGui::GetCursorPosX() - 2 * (strips.button_width() + gap) - ImGui::GetStyle().WindowPadding.x;
-  const bool entered = ui.text("save.path", "Path of a .json file", state.save_path, std::max(field, 40.0f));
+  const std::string before = state.save_path;
+  const bool entered = ui.asked_path("save.path", "Path of a .json file", state.save_path,
+                                     std::max(field, 40.0f), state.save_field_wanted);
+  const bool escaped = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  if (state.save_path != before) { // what was said or asked was about another name
+    state.settle(ErrorCause::save);
+    if (state.question == Question::replace) state.question = Question::none;
+    state.replace_path.clear();
+  }
   ImGui::SameLine();
   const bool pressed = ui.button("save.to", "Save", "Meshes in its folder are named, others written into it",
                                  strips.button_width());
   ImGui::SameLine();
-  if (ui.button("save.cancel", "Cancel", {}, strips.button_width())) state.save_as_visible = false;
+  if (ui.button("save.cancel", "Cancel", {}, strips.button_width()) || escaped) state.give_up_saving();
   if ((entered || pressed) && !state.save_path.empty()) state.save_to = state.save_path;
 }
 
@@ -119,9 +133,21 @@ void working_bar(double share, float unit) {
 
 } // namespace
 
-void message_strips(Ui& ui, ViewerState& state, vec2 position, float width) {
+void message_strips(Ui& ui, ViewerState& state, vec2 position, vec2 room) {
+  const float width = room.x, height = std::exchange(state.strips_bottom, 0.0f);
   if (width < 1) return;
-  Strips strips(ui, position, width);
+  // What is asked stands first, so that nothing that happens meanwhile moves it from under the hand.
+  Strips asking(ui, position, width);
+  if (state.save_as_visible) asking.strip("##save", kGrey, [&] { save_as(ui, state, asking, width); });
+  if (state.question != Question::none)
+    asking.strip("##question", kGrey, [&] { question(ui, state, asking); });
+
+  // The rest gives way to what is being typed, which may be in a field of the lab's.
+  const auto typed = ui.typed_field();
+  const bool in_the_way = typed && typed->name != "save.path" && typed->lo.x < position.x + width &&
+                          typed->lo.y < position.y + std::max(height, 64 * ui.scale());
+  const float top = in_the_way ? position.y + room.y - std::max(state.told_height, 1.0f) : asking.bottom();
+  Strips strips(ui, vec2(position.x, top), width);
   const bool reading = state.reading && state.now - state.loading_since > kQuietSeconds;
   const bool building = !state.reading && state.status.phase == SessionPhase::building &&
                         state.now - state.building_since > kQuietSeconds;
@@ -143,11 +169,10 @@ void message_strips(Ui& ui, ViewerState& state, vec2 position, float width) {
     strips.strip("##error", kRed, [&] {
       strips.text(state.error, 1);
       ui.record("error.text");
-      if (strips.button("error.dismiss", "Dismiss")) state.error.clear();
+      if (strips.button("error.dismiss", "Dismiss", "Esc does it, too")) state.error.clear();
     });
-  if (state.question != Question::none)
-    strips.strip("##question", kGrey, [&] { question(ui, state, strips); });
-  if (state.save_as_visible) strips.strip("##save", kGrey, [&] { save_as(ui, state, strips, width); });
+  state.told_height = strips.bottom() - top;
+  state.strips_bottom = in_the_way ? asking.bottom() : strips.bottom();
 }
 
 } // namespace candela

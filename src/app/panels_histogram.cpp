@@ -1,6 +1,7 @@
 // The section that looks into the picture: its histogram in stops, and the switch of the probe.
 
 #include "app/panels.h"
+#include "app/typed_number.h"
 #include "render/exposure.h"
 
 #include <fmt/format.h>
@@ -137,9 +138,11 @@ void inspect_panel(Ui& ui, ViewerState& state) {
   const LogHistogram& h = histogram ? *histogram : kEmpty;
   row("black", percent(h.clipped_black, h.pixels), "Pixels shown as 0 0 0");
   row("clipped", percent(h.clipped_white, h.pixels), "Pixels of which a channel is shown as 255");
-  row("luminance", fmt::format("{:.4g} to {:.4g}", h.smallest, h.largest),
+  row("luminance",
+      fmt::format("{} to {}", plain_number(static_cast<double>(h.smallest), 4),
+                  plain_number(static_cast<double>(h.largest), 4)),
       "The smallest above 0, and the largest");
-  row("log-average", fmt::format("{:.4g}", h.log_average), "Geometric mean of the luminances above 0");
+  row("log-average", plain_number(h.log_average, 4), "Geometric mean of the luminances above 0");
 }
 
 } // namespace candela

@@ -156,6 +156,7 @@ void status_line(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
                       std::floor(100 * state.loaded));
     else if (talk.empty())
       talk = scene_title(state) + (state.modified ? "*" : "");
+    if (!state.picture_of.empty()) talk += "    " + state.picture_of;
     if (state.picture && state.picture->denoised)
       talk += "    " + denoised_text(*state.picture->denoised);
     else if (state.document.settings.display.denoise && state.document.settings.view == View::radiance)

@@ -51,10 +51,12 @@ LabPanel::LabPanel(std::function<void()> wake) : worker_(std::move(wake)) {
 
 LabPanel::~LabPanel() = default;
 
+float LabPanel::width(float scale, float room) { return std::min(kWidth * scale, room); }
+
 void LabPanel::draw(Ui& ui, bool& visible, vec2 position, vec2 room) {
   worker_.run_completions();
   if (!visible || room.x < 1 || room.y < 1) return;
-  const float width = std::min(kWidth * ui.scale(), room.x);
+  const float width = LabPanel::width(ui.scale(), room.x);
   const LessonInfo& info = lessons()[page_];
   const std::string look_at = fmt::format("{}. {}", info.title, info.look_at);
   const ImGuiStyle& style = ImGui::GetStyle();

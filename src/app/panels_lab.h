@@ -17,6 +17,8 @@ public:
   /// Draws the panel into what is free of the window, if `visible`, which its close button clears, and lets
   /// the lesson on show go on. No lesson runs while this is not called or not `visible`.
   void draw(Ui& ui, bool& visible, vec2 position, vec2 room);
+  /// Of `room`, that the panel takes from the left while it is shown.
+  static float width(float scale, float room);
   /// Whether draw() would show something new.
   bool has_news() const { return worker_.has_completions(); }
   /// Whether the lesson on show has not come to its end, and whether a slice of one is under way.

@@ -22,10 +22,15 @@ const FieldInfo kRotation{"rotation",
                           -kInf,
                           kInf,
                           "degrees",
-                          "Turns about the world's x, then y, then z axis",
+                          "Turns about the world's x, then y, then z axis, and the object's middle",
                           Invalidates::scene};
-const FieldInfo kScale{
-    "scale", FieldType::point, -1e6, 1e6, "", "Factors along the object's own axes", Invalidates::scene};
+const FieldInfo kScale{"scale",
+                       FieldType::point,
+                       -1e6,
+                       1e6,
+                       "",
+                       "Factors along the object's own axes, from its middle",
+                       Invalidates::scene};
 
 std::string shape_text(const Shape& shape) {
   if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
@@ -80,6 +85,7 @@ void transform_fields(Ui& ui, ViewerState& state, Instance& instance, const Inst
   if (!changed) return;
   for (int i = 0; i < 3; ++i) // a flat object has no inverse
     if (std::abs(parts.scale[i]) < 1e-6f) parts.scale[i] = 1e-6f;
+  parts = about_middle(instance.world_from_object, parts, state.selection_middle);
   instance.world_from_object = transform_of(parts);
   state.typed_transform = parts;
   state.edited = true;

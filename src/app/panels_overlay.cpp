@@ -92,14 +92,21 @@ void help_overlay(Ui& ui, ViewerState& state, vec2 center, vec2 room) {
 }
 
 void picture_label(Ui& ui, const ViewerState& state, vec2 top_left) {
-  if (!state.picture || !state.picture->denoised) return;
+  const bool denoised = state.picture && state.picture->denoised;
+  if (!denoised && state.picture_of.empty()) return;
   ImGui::SetNextWindowPos(ImVec2(top_left.x + 12 * ui.scale(), top_left.y + 12 * ui.scale()));
   ImGui::SetNextWindowBgAlpha(0.6f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * ui.scale());
   if (ImGui::Begin("##label", nullptr,
                    kOverlay | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs)) {
-    ImGui::TextUnformatted(denoised_text(*state.picture->denoised).c_str());
-    ui.record("picture.denoised");
+    if (!state.picture_of.empty()) {
+      ImGui::TextUnformatted(state.picture_of.c_str());
+      ui.record("picture.old");
+    }
+    if (denoised) {
+      ImGui::TextUnformatted(denoised_text(*state.picture->denoised).c_str());
+      ui.record("picture.denoised");
+    }
   }
   ImGui::End();
   ImGui::PopStyleVar();

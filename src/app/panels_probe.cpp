@@ -1,5 +1,6 @@
 #include "app/panels_probe.h"
 
+#include "app/typed_number.h"
 #include "core/color.h"
 #include "render/exposure.h"
 
@@ -17,8 +18,13 @@ constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindo
 /// Four digits, equally long but for the sign and huge or tiny values.
 std::string digits(float value) {
   const float size = std::abs(value);
-  if (size != 0 && (size < 1e-3f || size >= 1e5f)) return fmt::format("{:.3e}", value);
-  return fmt::format("{:.{}f}", value, size < 10 ? 4 : size < 100 ? 3 : size < 1000 ? 2 : 1);
+  if (size != 0 && (size < 1e-3f || size >= 1e7f)) return fmt::format("{:.3e}", value);
+  return fmt::format("{:.{}f}", value,
+                     size < 10     ? 4
+                     : size < 100  ? 3
+                     : size < 1000 ? 2
+                     : size < 1e5f ? 1
+                                   : 0);
 }
 
 std::string triple(vec3 v) { return fmt::format("{}  {}  {}", digits(v.x), digits(v.y), digits(v.z)); }
@@ -143,7 +149,8 @@ void probe_overlay(Ui& ui, ViewerState& state, const PixelRect& picture, vec2 to
       text_rows(scene_rows(state, inspect.probe_pick), column);
       ImGui::TextDisabled("%s", inspect.probe_frozen ? "held; H lets go" : "H holds this pixel");
     }
-    ui.record("probe");
+    const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    ui.record("probe", vec2(at.x, at.y), vec2(at.x + size.x, at.y + size.y));
   }
   ImGui::End();
   ImGui::PopStyleVar();
@@ -168,7 +175,7 @@ void draw_focus_mark(Ui& ui, ViewerState& state, const PixelRect& picture, doubl
   const vec2 p = vec2(picture.x, picture.y) + *at * vec2(picture.width, picture.height) / vec2(film);
   const float unit = ui.scale(), arm = 9 * unit, gap = 3 * unit;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  const std::string text = fmt::format("{:.4g} scene units", mark->view_depth);
+  const std::string text = scene_units(mark->view_depth);
   for (auto [color, thickness] :
        {std::pair(IM_COL32(0, 0, 0, 200), 3 * unit), std::pair(IM_COL32_WHITE, unit)}) {
     for (vec2 d : {vec2(1, 0), vec2(-1, 0), vec2(0, 1), vec2(0, -1)})
@@ -220,7 +227,7 @@ void legend_overlay(Ui& ui, const ViewerState& state, vec2 bottom_left) {
       const float x = x0 + scale.position(static_cast<float>(tick)) * width;
       list.AddLine(ImVec2(x, y0 + height), ImVec2(x, y0 + height + 3 * unit),
                    ImGui::GetColorU32(ImGuiCol_Text));
-      const std::string text = fmt::format("{:.4g}", tick);
+      const std::string text = plain_number(tick, 4);
       const float half = 0.5f * ImGui::CalcTextSize(text.c_str()).x;
       if (x - half < free_from) continue;
       list.AddText(ImVec2(x - half, y0 + height + 4 * unit), ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
@@ -238,10 +245,12 @@ void focus_rows(Ui& ui, ViewerState& state) {
   std::string sharp = "everywhere (pinhole)";
   if (rays.has_lens()) {
     const CameraRays::Interval interval = rays.depth_of_field(sharp_blur(film.height));
-    sharp = interval.far == kInfinity ? fmt::format("from {:.4g}", interval.near)
-                                      : fmt::format("{:.4g} to {:.4g}", interval.near, interval.far);
+    const std::string near = plain_number(static_cast<double>(interval.near), 4);
+    sharp = interval.far == kInfinity
+                ? fmt::format("from {}", near)
+                : fmt::format("{} to {}", near, plain_number(static_cast<double>(interval.far), 4));
   }
-  ui.readout("in focus at", fmt::format("{:.4g} scene units", camera.effective_focus_distance()),
+  ui.readout("in focus at", scene_units(camera.effective_focus_distance()),
              "Distance of the plane of focus along the view axis");
   ui.readout("sharp", sharp,
              "Distances along the view axis at which the blur is below 1/500 of the picture's height");

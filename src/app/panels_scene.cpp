@@ -34,12 +34,14 @@ void panorama_of(Ui& ui, ViewerState& state, const LightDesc& light) {
   ui.readout("panorama", light.panorama ? light.panorama->name : "none: the same from everywhere",
              "The picture that the light comes from");
   const float button = 64 * ui.scale();
+  const std::string before = state.panorama_input;
   const bool entered = ui.text("light.file", "Path of a panorama, or drop it here", state.panorama_input,
                                -button - ImGui::GetStyle().ItemSpacing.x);
+  if (state.panorama_input != before) state.settle(ErrorCause::open);
   ImGui::SameLine();
   const bool pressed =
       ui.button("light.open", "Open", "Lights the scene with this picture (.exr, .hdr …)", button);
-  if ((entered || pressed) && !state.panorama_input.empty()) state.open_path = state.panorama_input;
+  if ((entered || pressed) && !state.panorama_input.empty()) state.open_paths = {state.panorama_input};
 }
 
 void emission_fields_of(Ui& ui, ViewerState& state, std::size_t index) {
@@ -127,16 +129,18 @@ void scenes_panel(Ui& ui, ViewerState& state) {
     const std::string path = state.scenes[i].string();
     if (ui.item(fmt::format("scenes/{}", i), state.scenes[i].stem().string().c_str(),
                 path == state.scene_path))
-      state.open_path = path;
+      state.open_paths = {path};
     ui.tooltip(path);
   });
   const float button = 64 * ui.scale();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const std::string before = state.path_input;
   const bool entered =
       ui.text("scene.path", "Path of a scene, or drop it here", state.path_input, -button - gap);
+  if (state.path_input != before) state.settle(ErrorCause::open);
   ImGui::SameLine();
   const bool pressed = ui.button("scene.open", "Open", "Reads the scene beside the running one", button);
-  if ((entered || pressed) && !state.path_input.empty()) state.open_path = state.path_input;
+  if ((entered || pressed) && !state.path_input.empty()) state.open_paths = {state.path_input};
   if (ui.button("scene.save", "Save", "Writes the scene as JSON (Ctrl+S)", button))
     state.save_scene_requested = true;
   ImGui::SameLine();
@@ -157,7 +161,7 @@ void scenes_panel(Ui& ui, ViewerState& state) {
       const std::string& path = state.recent[i];
       if (ui.item(fmt::format("recent/{}", i), std::filesystem::path(path).filename().string().c_str(),
                   path == state.scene_path))
-        state.open_path = path;
+        state.open_paths = {path};
       ui.tooltip(path);
     });
   }

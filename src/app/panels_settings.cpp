@@ -108,7 +108,9 @@ void camera_panel(Ui& ui, ViewerState& state) {
     state.edited = true;
     if (std::string problem = camera_problem(state.document.scene.camera); !problem.empty()) {
       state.document.scene.camera = before;
-      state.error = problem;
+      state.fail(ErrorCause::camera, std::move(problem));
+    } else {
+      state.settle(ErrorCause::camera);
     }
   }
   focus_rows(ui, state);

@@ -94,6 +94,10 @@ Preferences from_json(const json& root, std::vector<std::string>& odd) {
 
 } // namespace
 
+ivec2 size_at_scale_one(ivec2 framebuffer, float scale) { return glm::round(vec2(framebuffer) / scale); }
+
+ivec2 size_at_scale(ivec2 size, float scale) { return glm::round(vec2(size) * scale); }
+
 fs::path default_preferences_path() {
   auto folder = [](const char* name) -> fs::path {
     const char* value = std::getenv(name);

@@ -21,6 +21,11 @@ struct Preferences {
   bool operator==(const Preferences&) const = default;
 };
 
+/// What a window has at scale 1, and what it has of it at another scale: rounded, so that a window that is
+/// remembered and opened again for ever stays as large as it was.
+ivec2 size_at_scale_one(ivec2 framebuffer, float scale);
+ivec2 size_at_scale(ivec2 size, float scale);
+
 /// $XDG_CONFIG_HOME/candela/preferences.json, or below ~/.config; empty where there is neither.
 std::filesystem::path default_preferences_path();
 

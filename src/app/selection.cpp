@@ -46,6 +46,19 @@ std::optional<int> light_row(const SceneDesc& scene, const SceneDesc& home, cons
   return std::nullopt;
 }
 
+Bounds3 SelectionBox::box(const Instance& instance) {
+  const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape);
+  if (mesh == nullptr) return object_bounds(instance.shape);
+  if (mesh_ != *mesh) mesh_ = *mesh, mesh_bounds_ = object_bounds(instance.shape);
+  return mesh_bounds_;
+}
+
+vec3 SelectionBox::middle(const SceneDesc& scene, const Selection& selection) {
+  if (selection.kind != Selection::Kind::object) return vec3(0);
+  const Bounds3 bounds = box(scene.instances[static_cast<std::size_t>(selection.index)]);
+  return bounds.empty() ? vec3(0) : bounds.center();
+}
+
 std::optional<BoxCorners> SelectionBox::corners(const SceneDesc& scene, const Selection& selection) {
   BoxCorners corners;
   const auto index = static_cast<std::size_t>(selection.index);
@@ -57,13 +70,7 @@ std::optional<BoxCorners> SelectionBox::corners(const SceneDesc& scene, const Se
   }
   if (selection.kind == Selection::Kind::none) return std::nullopt;
   const Instance& instance = scene.instances[index];
-  Bounds3 box;
-  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
-    if (mesh_ != *mesh) mesh_ = *mesh, mesh_bounds_ = object_bounds(instance.shape);
-    box = mesh_bounds_;
-  } else {
-    box = object_bounds(instance.shape);
-  }
+  const Bounds3 box = this->box(instance);
   if (box.empty()) return std::nullopt;
   for (std::size_t i = 0; i < corners.size(); ++i)
     corners[i] = transform_point(instance.world_from_object,

@@ -39,8 +39,13 @@ class SelectionBox {
 public:
   /// Nothing for what has no place: no selection, or an infinite light. A light is a point.
   std::optional<BoxCorners> corners(const SceneDesc& scene, const Selection& selection);
+  /// What the selected object turns about and is scaled from, in its own space: the middle of its box; the
+  /// origin of what has none.
+  vec3 middle(const SceneDesc& scene, const Selection& selection);
 
 private:
+  Bounds3 box(const Instance& instance);
+
   std::shared_ptr<const Mesh> mesh_;
   Bounds3 mesh_bounds_;
 };

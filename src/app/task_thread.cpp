@@ -37,6 +37,11 @@ void TaskThread::run_completions() {
   for (const Completion& completion : ready) completion();
 }
 
+void TaskThread::finish() {
+  std::unique_lock lock(mutex_);
+  idle_.wait(lock, [this] { return tasks_.empty() && !working_; });
+}
+
 void TaskThread::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -44,12 +49,15 @@ void TaskThread::run() {
     if (tasks_.empty()) return;
     Task task = std::move(tasks_.front());
     tasks_.pop_front();
+    working_ = true;
     lock.unlock();
     Completion completion = task();
     task = nullptr; // what it captured is freed here, not on the UI thread
     lock.lock();
     completions_.push_back(std::move(completion));
+    working_ = false;
     lock.unlock();
+    idle_.notify_all();
     if (wake_) wake_();
     lock.lock();
   }

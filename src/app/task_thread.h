@@ -29,16 +29,19 @@ public:
   int pending() const { return pending_; }
   bool has_completions() const;
   void run_completions();
+  /// Waits until every task that was posted is done. Not for the UI thread while there is a UI.
+  void finish();
 
 private:
   void run();
 
   std::function<void()> wake_;
   mutable std::mutex mutex_; // held for moves of pointers only
-  std::condition_variable posted_;
+  std::condition_variable posted_, idle_;
   std::deque<Task> tasks_;
   std::vector<Completion> completions_;
   bool stopping_ = false;
+  bool working_ = false;
   int pending_ = 0; // of the UI thread
   std::thread thread_;
 };

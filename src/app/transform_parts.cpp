@@ -44,6 +44,12 @@ mat4 transform_of(const TransformParts& parts) {
   return glm::scale(m, parts.scale);
 }
 
+TransformParts about_middle(const mat4& before, TransformParts parts, vec3 middle) {
+  parts.position = vec3(0);
+  parts.position = transform_point(before, middle) - transform_point(transform_of(parts), middle);
+  return parts;
+}
+
 bool has_shear(const mat4& matrix) {
   const mat4 again = transform_of(transform_parts(matrix));
   for (int c = 0; c < 3; ++c)

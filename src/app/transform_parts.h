@@ -17,6 +17,10 @@ struct TransformParts {
 TransformParts transform_parts(const mat4& matrix);
 mat4 transform_of(const TransformParts& parts);
 
+/// Another rotation and scale for what `before` places, such that the point `middle` of the object's own
+/// space stays where it is: what handles turn and scale about, too.
+TransformParts about_middle(const mat4& before, TransformParts parts, vec3 middle);
+
 /// Whether the matrix shears, so that no parts make it.
 bool has_shear(const mat4& matrix);
 

@@ -25,6 +25,19 @@ constexpr std::array kTypefaces = {
     "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
 };
 
+// Of the packages fonts-noto-cjk, fonts-droid-fallback, fonts-wqy-microhei, fonts-wqy-zenhei, fonts-nanum,
+// fonts-vlgothic, fonts-dejavu-core and fonts-unifont.
+constexpr std::array kFallbacks = {
+    "/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc",
+    "/usr/share/fonts/truetype/droid/DroidSansFallbackFull.ttf",
+    "/usr/share/fonts/truetype/wqy/wqy-microhei.ttc",
+    "/usr/share/fonts/truetype/wqy/wqy-zenhei.ttc",
+    "/usr/share/fonts/truetype/nanum/NanumGothic.ttf",
+    "/usr/share/fonts/truetype/vlgothic/VL-Gothic-Regular.ttf",
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+    "/usr/share/fonts/opentype/unifont/unifont.otf",
+};
+
 /// Takes the first code point off a UTF-8 text; a byte that begins none is U+FFFD.
 int next_code_point(std::string_view& text) {
   auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
@@ -48,6 +61,21 @@ std::filesystem::path find_typeface() {
     if (std::filesystem::is_regular_file(file, failed)) return file;
   }
   return {};
+}
+
+std::vector<std::filesystem::path> find_fallback_typefaces() {
+  std::vector<std::filesystem::path> found;
+  for (const char* file : kFallbacks) {
+    std::error_code failed;
+    if (std::filesystem::is_regular_file(file, failed)) found.emplace_back(file);
+  }
+  return found;
+}
+
+std::vector<char32_t> code_points(std::string_view text) {
+  std::vector<char32_t> out;
+  while (!text.empty()) out.push_back(static_cast<char32_t>(next_code_point(text)));
+  return out;
 }
 
 struct Typeface::Data {
@@ -77,6 +105,10 @@ Typeface Typeface::installed() {
     throw Error(ExitCode::display,
                 "font: no scalable typeface is installed: install the package fonts-roboto-unhinted");
   return Typeface(file);
+}
+
+bool Typeface::has(char32_t code_point) const {
+  return stbtt_FindGlyphIndex(&data_->info, static_cast<int>(code_point)) != 0;
 }
 
 float Typeface::ascent(float size) const { return data_->ascent * size; }

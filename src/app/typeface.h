@@ -13,6 +13,13 @@ namespace candela {
 /// still) that is installed; empty if none is.
 std::filesystem::path find_typeface();
 
+/// Of the typefaces that have the letters of other scripts, those that are installed, the best first: Noto's
+/// and others for Chinese, Japanese and Korean, DejaVu for the rest.
+std::vector<std::filesystem::path> find_fallback_typefaces();
+
+/// The code points of a UTF-8 text; a byte that begins none is U+FFFD.
+std::vector<char32_t> code_points(std::string_view text);
+
 /// A TrueType file. Const, so that several threads may draw with one.
 class Typeface {
 public:
@@ -24,6 +31,8 @@ public:
   /// That of find_typeface(); an Error with ExitCode::display that names the package to install if there is
   /// none.
   static Typeface installed();
+
+  bool has(char32_t code_point) const;
 
   /// Pixels from the pen's start to its end, for UTF-8 text of a size (ascent plus descent, pixels).
   float text_width(std::string_view text, float size) const;

@@ -1,10 +1,12 @@
 #include "app/ui_style.h"
 
 #include "app/typeface.h"
+#include "core/error.h"
 
 #include <imgui.h>
 
 #include <cmath>
+#include <deque>
 
 namespace candela {
 
@@ -17,20 +19,55 @@ constexpr ImWchar kGlyphs[] = {0x20, 0x24f, 0x370, 0x52f, 0x2010, 0x2027, 0x2030
 
 ImVec4 grey(float value, float alpha = 1) { return {value, value, value, alpha}; }
 
+/// Adds the glyphs that the typefaces of other scripts have to the font before, and makes the atlas.
+void merge_fallbacks(ImFontAtlas& atlas, float size, std::set<char32_t> wanted) {
+  std::deque<ImVector<ImWchar>> ranges; // which the atlas only points to until it is built
+  for (const std::filesystem::path& file : find_fallback_typefaces()) {
+    if (wanted.empty()) break;
+    ImFontGlyphRangesBuilder builder;
+    try {
+      const Typeface typeface(file);
+      std::erase_if(wanted, [&](char32_t c) {
+        const bool there = typeface.has(c);
+        if (there) builder.AddChar(static_cast<ImWchar>(c));
+        return there;
+      });
+    } catch (const Error&) { continue; } // a broken file: there are others
+    builder.BuildRanges(&ranges.emplace_back());
+    if (ranges.back().Size < 3) continue; // nothing of it
+    ImFontConfig config;
+    config.MergeMode = true;
+    config.PixelSnapH = true;
+    config.OversampleH = config.OversampleV = 1;
+    atlas.AddFontFromFileTTF(file.c_str(), size, &config, ranges.back().Data);
+  }
+  atlas.Build();
+}
+
 } // namespace
 
-UiFonts load_fonts(ImFontAtlas& atlas, float scale) {
+bool is_common_glyph(char32_t code_point) {
+  for (const ImWchar* range = kGlyphs; *range != 0; range += 2)
+    if (code_point >= range[0] && code_point <= range[1]) return true;
+  return code_point < 0x20;
+}
+
+UiFonts load_fonts(ImFontAtlas& atlas, float scale, const std::set<char32_t>& more) {
   ImFontConfig config;
   config.OversampleH = scale < 1.5f ? 3 : 2;
   config.OversampleV = 1;
   config.PixelSnapH = true; // and so equal advances stay equal
+  const float size = std::round(kTextSize * scale);
   if (const std::filesystem::path file = find_typeface(); !file.empty())
-    if (ImFont* font =
-            atlas.AddFontFromFileTTF(file.c_str(), std::round(kTextSize * scale), &config, kGlyphs))
+    if (ImFont* font = atlas.AddFontFromFileTTF(file.c_str(), size, &config, kGlyphs)) {
+      merge_fallbacks(atlas, size, more);
       return {font, true};
+    }
   ImFontConfig fallback;
   fallback.SizePixels = std::round(13 * scale);
-  return {atlas.AddFontDefault(&fallback), false};
+  ImFont* font = atlas.AddFontDefault(&fallback);
+  merge_fallbacks(atlas, fallback.SizePixels, more);
+  return {font, false};
 }
 
 void apply_style(float scale) {

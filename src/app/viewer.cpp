@@ -92,6 +92,7 @@ bool Viewer::frame(double now, bool may_wait) {
   feed_events();
   reader_.run_completions();
   writer_.run_completions();
+  learn_letters_of_frame();
   update_scale();
   state_.status = session_->status();
   if (state_.status.phase != SessionPhase::building || drawn_phase_ != SessionPhase::building)
@@ -107,13 +108,15 @@ bool Viewer::frame(double now, bool may_wait) {
   if (now > notice_until_) state_.notice.clear();
   if (state_.status.phase == SessionPhase::failed && failed_generation_ != state_.status.submitted) {
     failed_generation_ = state_.status.submitted;
-    state_.error = state_.status.error;
+    state_.fail(ErrorCause::render, state_.status.error);
   }
+  if (state_.status.phase != SessionPhase::failed) state_.settle(ErrorCause::render);
   const std::uint64_t restarts_handed_in = meter_.submissions();
   const std::shared_ptr<const DisplayImage> newest = session_->display();
   const bool new_picture = newest != viewport_.shown();
   viewport_.show(newest);
   state_.picture = viewport_.shown();
+  describe_picture();
   update_compare();
 
   io.DisplaySize = ImVec2(static_cast<float>(framebuffer_.x), static_cast<float>(framebuffer_.y));
@@ -124,9 +127,12 @@ bool Viewer::frame(double now, bool may_wait) {
   inspector_.update(state_, *session_, picture_rect(),
                     io.WantCaptureMouse ? std::nullopt : std::optional(vec2(io.MousePos.x, io.MousePos.y)));
   state_.selection = checked_selection(state_.document.scene, state_.selection);
+  state_.selection_middle = selection_box_.middle(state_.document.scene, state_.selection);
   draw_ui();
+  if (std::string refusal = ui_.take_refusal(); !refusal.empty()) notify(std::move(refusal));
   draw_overlay();
   typing_ = io.WantTextInput || imgui_->WantTextInputNextFrame > 0;
+  if (typing_ || !single_keys_act(Key::w)) held_.clear(); // nobody flies on behind a question
   use_mouse_on_picture();
   fly();
   serve_requests();
@@ -191,6 +197,7 @@ EditState Viewer::edit_state() const { return {state_.document, state_.fit_film,
 void Viewer::submit() {
   if (!state_.edited) return;
   const std::uint64_t generation = session_->submit(state_.document);
+  if (std::exchange(scene_is_new_, false)) scene_generation_ = generation;
   if (session_->status().restarting == generation)
     meter_.submitted(generation, input_since_.value_or(began_));
   state_.edited = false;
@@ -216,6 +223,24 @@ void Viewer::keep_history() {
   if (!in_gesture && (state_.edited || state_.undo_name != history_.undo_name())) update_modified();
   state_.undo_name = history_.undo_name();
   state_.redo_name = history_.redo_name();
+}
+
+/// Says whether the picture on the screen is one of something else: of the scene before while the new one is
+/// read in, built and rendered for the first time, or of what was before an edit that takes long or failed.
+void Viewer::describe_picture() {
+  constexpr double kQuietSeconds = 0.5; // what takes less is not worth a word
+  state_.picture_of.clear();
+  if (!state_.picture) return;
+  const std::uint64_t generation = state_.picture->frame->generation;
+  const bool of_this_scene = !scene_is_new_ && generation >= scene_generation_;
+  if (of_this_scene) shown_title_ = scene_title(state_);
+  const bool behind = !of_this_scene || generation < state_.status.restarting;
+  if (!behind || generation != shown_generation_) behind_since_ = now_; // also while they follow a hand
+  shown_generation_ = generation;
+  const bool failed = state_.status.phase == SessionPhase::failed;
+  if (!behind || (!failed && now_ - behind_since_ < kQuietSeconds)) return;
+  state_.picture_of = !of_this_scene ? fmt::format("still the picture of {}", shown_title_)
+                                     : "still the picture from before the edit";
 }
 
 void Viewer::notify(std::string text) {

@@ -5,6 +5,7 @@
 
 #include "app/compare_layout.h"
 #include "app/compare_mode.h"
+#include "app/dropped_files.h"
 #include "app/edit_history.h"
 #include "app/event.h"
 #include "app/file_watch.h"
@@ -77,6 +78,8 @@ public:
   InteractionMeter& meter() { return meter_; }
   ivec2 framebuffer() const { return framebuffer_; }
   bool wants_close() const { return wants_close_; }
+  /// Waits until all that was to be saved is on the disk; after the window has gone.
+  void finish_writing();
   std::string title() const;
 
   const ViewerState& state() const { return state_; }
@@ -96,6 +99,7 @@ private:
   static void map_keys();
   void feed_events();
   bool fits_into_frame(const Event& event) const;
+  bool takes_keys(bool pressed) const;
   void apply(const Event& event);
   void apply_key(const KeyChanged& change);
   FlyCommand fly_command() const;
@@ -106,6 +110,8 @@ private:
     Key key;
     bool control, shift, alt; // as they were then: they may be released in the same frame
   };
+  bool asks() const;
+  bool single_keys_act(Key key) const;
   void run_shortcuts();
   void run_control_shortcut(const KeyPress& press);
   void run_plain_shortcut(Key key);
@@ -148,14 +154,16 @@ private:
 
   // viewer_files.cpp
   /// Reads a scene in the background, or a picture that lights the present one.
-  void open_scene(const std::string& path, bool reload);
-  void finish_opening(const std::string& path, LoadedScene& loaded, const Bounds3& bounds, bool reload);
+  void open_scene(const std::vector<std::string>& paths, bool reload);
+  void finish_opening(const Dropped& chosen, LoadedScene& loaded, const Bounds3& bounds, bool reload);
+  void take_dropped(const std::vector<std::string>& paths);
   void cancel_opening();
   void cancel_building();
   void look_for_changes();
   bool is_bundled(const std::string& path) const;
   void save_scene();
-  void save_scene_to(const std::string& path);
+  void ask_for_path();
+  void save_scene_to(std::string path);
   void serve_file_requests();
   void update_modified();
   void remember_recent(const std::string& path);
@@ -178,6 +186,10 @@ private:
   // viewer_layout.cpp
   PixelRect single_picture_rect() const;
   void update_scale();
+  void learn_letter(char32_t letter);
+  void learn_letters(std::string_view text);
+  void learn_letters_of_frame();
+  void learn_letters_of_scene();
   bool shows_panels() const;
   /// What the panels leave of the window: they are to the right and below.
   PixelRect free_region() const;
@@ -204,6 +216,7 @@ private:
   void submit();
   EditState edit_state() const;
   void notify(std::string text);
+  void describe_picture();
 
   const Gl& gl_;
   ViewerOptions options_;
@@ -229,9 +242,11 @@ private:
     std::set<MouseButton> buttons;
     std::set<Key> keys;
     std::vector<KeyPress> pressed; // not meant for a text field
+    bool ends_keys = false;        // who has the keyboard may be another one after this frame
   } taken_;
-  std::set<Key> held_;  // keys that fly
-  bool typing_ = false; // a text field has the keyboard
+  std::set<Key> held_;    // keys that fly
+  bool typing_ = false;   // a text field has the keyboard
+  int field_awaited_ = 0; // frames for which keys wait for a field that is about to take them
   Gesture gesture_ = Gesture::none;
   int gesture_button_ = 0;
   vec3 gesture_pivot_{0};
@@ -247,6 +262,14 @@ private:
   EditHistory history_;
   std::shared_ptr<OpenScene> scene_; // the state has a copy of what panels look at
   bool shown_paused_ = false;
+  bool scene_is_new_ = false;          // and not submitted yet
+  std::uint64_t scene_generation_ = 0; // that it was submitted as
+  std::string shown_title_;            // of the scene that the picture is of
+  std::uint64_t shown_generation_ = 0; // of the picture
+  double behind_since_ = 0;            // the picture is not the document's, and no newer one came
+
+  std::set<char32_t> glyphs_; // that turned up beside those of every atlas
+  bool glyphs_are_new_ = false;
 
   ivec2 framebuffer_{1280, 720};
   float content_scale_ = 1;
@@ -258,7 +281,6 @@ private:
   std::uint64_t failed_generation_ = 0; // whose error was shown already
   std::uint64_t open_requests_ = 0;
   std::shared_ptr<Progress> reading_ = std::make_shared<Progress>();
-  bool quit_after_save_ = false;
   Preferences preferences_, written_preferences_;
 
   Viewport other_viewport_, difference_viewport_; // of a comparison

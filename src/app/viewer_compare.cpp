@@ -31,7 +31,7 @@ void Viewer::update_compare() {
   difference_viewport_.show(compare_.difference());
 
   // B flips when it is pressed; held, it flips back when it is let go.
-  const bool down = !typing_ && ImGui::GetIO().KeysDown[static_cast<int>(Key::b)];
+  const bool down = !typing_ && single_keys_act(Key::b) && ImGui::GetIO().KeysDown[static_cast<int>(Key::b)];
   if (down && !flip_down_) compare.flipped = !compare.flipped, flip_since_ = now_;
   if (!down && flip_down_ && now_ - flip_since_ > kFlipHold) compare.flipped = !compare.flipped;
   flip_down_ = down;
@@ -67,7 +67,7 @@ void Viewer::serve_compare_requests() {
     if (compare.render_reference_requested) compare_.render_reference(compare, now);
     if (compare.load_reference_requested) compare_.load_reference(compare.reference_path);
     if (compare.clear_reference_requested) compare_.clear_reference();
-    if (compare.export_requested) compare_.export_figure(compare, now);
+    if (compare.export_requested) compare_.export_figure(compare, now, writer_);
     compare_.pause(state_.paused);
   }
   compare.toggle_requested = compare.render_reference_requested = compare.load_reference_requested =
@@ -85,6 +85,7 @@ void Viewer::exchange_sides() {
   other_viewport_.show(compare_.other_session()->display());
   state_.picture = viewport_.shown();
   state_.status = session_->status();
+  scene_generation_ = 0; // both sides show this scene, each by its own count
 }
 
 /// Whether the mouse moves the divider or the zoomed pictures, and so nothing else.

@@ -1,6 +1,8 @@
 // Scenes in and out, pictures out: all of it beside the UI thread.
 
+#include "app/dropped_files.h"
 #include "app/picture_saver.h"
+#include "app/typed_number.h"
 #include "app/viewer.h"
 #include "core/error.h"
 #include "io/image_file.h"
@@ -15,12 +17,16 @@
 #include <fmt/format.h>
 
 #include <set>
+#include <utility>
 
 namespace candela {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+/// That it takes at most until a field that appears has the keyboard.
+constexpr int kFramesToFocus = 6;
 
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code failed;
@@ -29,7 +35,12 @@ bool same_file(const std::string& a, const std::string& b) {
 
 std::string opened_text(const char* verb, const std::string& path, std::size_t warnings) {
   if (warnings == 0) return fmt::format("{} {}", verb, path);
-  return fmt::format("{} {} with {} warning{}: see Scenes", verb, path, warnings, warnings == 1 ? "" : "s");
+  return fmt::format("{} {} with {}: see Scenes", verb, path,
+                     counted(static_cast<long long>(warnings), "warning"));
+}
+
+std::string with_remark(const std::string& text, const std::string& remark) {
+  return remark.empty() ? text : fmt::format("{}; {}", text, remark);
 }
 
 /// The picture at the path, unless it is none or holds a scene.
@@ -54,52 +65,64 @@ void Viewer::light_with(std::shared_ptr<const Panorama> panorama, const FileStam
   watch_files(files);
 }
 
-void Viewer::open_scene(const std::string& path, bool reload) {
+void Viewer::take_dropped(const std::vector<std::string>& paths) {
+  if (!paths.empty()) state_.open_paths = paths;
+}
+
+void Viewer::open_scene(const std::vector<std::string>& paths, bool reload) {
   reading_->cancel(); // the newest wish counts
   reading_ = std::make_shared<Progress>();
-  state_.loading_path = path;
+  state_.loading_path = paths.front();
   state_.loading_since = now_;
-  if (!reload && !is_image_name(path)) state_.path_input = path; // a panorama's name stands in its light
+  state_.settle(ErrorCause::open);
+  if (!reload && !typing_ && !is_image_name(paths.front()))
+    state_.path_input = paths.front(); // a panorama's name stands in its light
   const std::uint64_t request = ++open_requests_;
   state_.reading = true;
   ReadOptions options = options_.reading;
   options.progress = reading_;
-  reader_.post([this, path, request, reload, options]() -> TaskThread::Completion {
+  reader_.post([this, paths, request, reload, options]() -> TaskThread::Completion {
     std::string problem;
     try {
+      const Dropped chosen = choose_dropped(paths);
+      const std::string& path = chosen.open;
       const FileStamps stamps{{path, file_stamp(path)}};
-      if (auto panorama = panorama_without_scene(path, options.progress))
-        return [this, path, request, panorama, stamps] {
+      if (path.empty()) {
+        problem = chosen.remark;
+      } else if (auto panorama = panorama_without_scene(path, options.progress)) {
+        return [this, chosen, request, panorama, stamps] {
           if (request != open_requests_) return;
           state_.reading = false;
           light_with(panorama, stamps);
-          notify(fmt::format("{} lights the scene: see Lights", path));
+          notify(with_remark(fmt::format("{} lights the scene: see Lights", chosen.open), chosen.remark));
         };
-      LoadedScene loaded = read_scene(path, options);
-      problem = camera_problem(loaded.document.scene.camera);
-      if (problem.empty()) {
-        const Bounds3 bounds = scene_bounds(loaded.document.scene);
-        return
-            [this, path, request, reload, bounds, scene = std::make_shared<LoadedScene>(std::move(loaded))] {
-              if (request == open_requests_) finish_opening(path, *scene, bounds, reload);
-            };
+      } else {
+        LoadedScene loaded = read_scene(path, options);
+        problem = camera_problem(loaded.document.scene.camera);
+        if (problem.empty()) {
+          const Bounds3 bounds = scene_bounds(loaded.document.scene);
+          return [this, chosen, request, reload, bounds,
+                  scene = std::make_shared<LoadedScene>(std::move(loaded))] {
+            if (request == open_requests_) finish_opening(chosen, *scene, bounds, reload);
+          };
+        }
+        problem = fmt::format("{}: {}", path, problem);
       }
-      problem = fmt::format("{}: {}", path, problem);
     } catch (const std::bad_alloc&) {
-      problem = fmt::format("{}: there is not enough memory for it: close other programs", path);
+      problem = fmt::format("{}: there is not enough memory for it: close other programs", paths.front());
     } catch (const std::exception& error) { // an Error, or what a library throws: shown either way
       problem = error.what();
     }
     return [this, problem, request] {
       if (request != open_requests_) return; // given up, or another was asked for meanwhile
       state_.reading = false;
-      state_.error = problem;
+      state_.fail(ErrorCause::open, problem);
     };
   });
 }
 
-void Viewer::finish_opening(const std::string& path, LoadedScene& loaded, const Bounds3& bounds,
-                            bool reload) {
+void Viewer::finish_opening(const Dropped& chosen, LoadedScene& loaded, const Bounds3& bounds, bool reload) {
+  const std::string& path = chosen.open;
   state_.reading = false;
   std::vector<std::string> warnings;
   for (const Warning& warning : loaded.warnings) warnings.push_back(warning.text);
@@ -113,9 +136,11 @@ void Viewer::finish_opening(const std::string& path, LoadedScene& loaded, const 
     state_.selected_material = material;
     state_.selected_light = light;
   } else {
+    if (!typing_) state_.path_input = path;
     remember_recent(path);
   }
-  notify(opened_text(reload ? "Reloaded" : "Opened", path, state_.warnings.size()));
+  notify(
+      with_remark(opened_text(reload ? "Reloaded" : "Opened", path, state_.warnings.size()), chosen.remark));
 }
 
 void Viewer::install_scene(Document document, std::string path, std::vector<std::string> warnings,
@@ -133,12 +158,16 @@ void Viewer::install_scene(Document document, std::string path, std::vector<std:
 void Viewer::show_state(const EditState& edit, const FileStamps& read) {
   state_.document = edit.document;
   state_.fit_film = edit.fit_film;
-  if (std::exchange(scene_, edit.scene) != edit.scene) watch_files(read);
+  if (std::exchange(scene_, edit.scene) != edit.scene) {
+    watch_files(read);
+    scene_is_new_ = true;
+  }
   state_.home = scene_->home;
   state_.scene_path = scene_->path;
   state_.warnings = scene_->warnings;
   state_.bounds = scene_->bounds;
   state_.natural_speed = natural_speed(scene_->bounds, scene_->home.scene.camera);
+  if (is_other) learn_letters_of_scene();
   state_.edited = true;
 }
 
@@ -213,7 +242,7 @@ void Viewer::look_for_changes() {
   if (state_.modified)
     state_.question = Question::reload;
   else
-    open_scene(scene_->path, true);
+    open_scene({scene_->path}, true);
 }
 
 bool Viewer::is_bundled(const std::string& path) const {
@@ -234,13 +263,22 @@ void Viewer::save_scene() {
   // works.
   const fs::path folder = path.empty() || is_bundled(path) ? fs::path() : fs::path(path).parent_path();
   state_.save_path = (folder / (stem + ".json")).string();
-  state_.save_as_visible = true;
+  ask_for_path();
 }
 
-void Viewer::save_scene_to(const std::string& path) {
+void Viewer::ask_for_path() {
+  state_.save_as_visible = state_.save_field_wanted = true;
+  field_awaited_ = kFramesToFocus;
+}
+
+void Viewer::save_scene_to(std::string path) {
   std::error_code failed;
+  if (const auto absolute = path.rfind("//"); absolute != std::string::npos)
+    path.erase(0, absolute + 1); // typed behind the folder that was offered
+  if (!fs::path(path).has_extension() && fs::path(path).has_filename()) path += ".json"; // what else
   if (fs::path(path).extension() != ".json") {
-    state_.error = fmt::format("{}: scenes are saved as .json: give the name that ending", path);
+    state_.fail(ErrorCause::save,
+                fmt::format("{}: scenes are saved as .json: give the name that ending", path));
     return;
   }
   const bool own = same_file(path, scene_->path);
@@ -251,37 +289,41 @@ void Viewer::save_scene_to(const std::string& path) {
   }
   state_.replace_path.clear();
   state_.question = Question::none;
-  state_.save_as_visible = false;
+  const bool was_asked = std::exchange(state_.save_as_visible, false);
   Document document = state_.document;
   if (state_.fit_film) { // the window's size is not the scene's
     document.settings.film.width = state_.home.settings.film.width;
     document.settings.film.height = state_.home.settings.film.height;
   }
-  writer_.post([this, path, document = std::move(document), scene = scene_]() -> TaskThread::Completion {
-    try {
-      FileStamps written;
-      for (const ExportedFile& copied : export_candela_json(document, path)) // pictures from elsewhere
-        written.emplace(canonical_path(copied.to), file_stamp(copied.to));
-      for (const std::string& file : {path, canonical_path(path)}) written.emplace(file, file_stamp(file));
-      return [this, path, document, scene, written] {
-        scene->files.erase(canonical_path(scene->path));
-        scene->path = path;
-        scene->saved = document;
-        for (const std::string& file : source_files(document.scene)) scene->files.try_emplace(file);
-        for (const auto& [file, stamp] : written) scene->files[file] = stamp;
-        if (scene == scene_) state_.scene_path = path, watch_files(written);
-        remember_recent(path);
-        update_modified();
-        notify(fmt::format("Saved {}", path));
-        if (quit_after_save_) wants_close_ = true;
-      };
-    } catch (const std::exception& error) {
-      return [this, problem = std::string(error.what())] {
-        state_.error = problem;
-        quit_after_save_ = false;
-      };
-    }
-  });
+  writer_.post(
+      [this, path, was_asked, document = std::move(document), scene = scene_]() -> TaskThread::Completion {
+        try {
+          FileStamps written;
+          for (const ExportedFile& copied : export_candela_json(document, path)) // pictures from elsewhere
+            written.emplace(canonical_path(copied.to), file_stamp(copied.to));
+          for (const std::string& file : {path, canonical_path(path)})
+            written.emplace(file, file_stamp(file));
+          return [this, path, document, scene, written] {
+            scene->files.erase(canonical_path(scene->path));
+            scene->path = path;
+            scene->saved = document;
+            for (const std::string& file : source_files(document.scene)) scene->files.try_emplace(file);
+            for (const auto& [file, stamp] : written) scene->files[file] = stamp;
+            if (scene == scene_) state_.scene_path = path, watch_files(written);
+            remember_recent(path);
+            update_modified();
+            notify(fmt::format("Saved {}", path));
+            state_.settle(ErrorCause::save);
+            if (state_.quit_after_save) wants_close_ = true;
+          };
+        } catch (const std::exception& error) {
+          return [this, was_asked, problem = std::string(error.what())] {
+            state_.fail(ErrorCause::save, problem);
+            state_.quit_after_save = false;
+            if (was_asked) ask_for_path(); // for a better one
+          };
+        }
+      });
 }
 
 void Viewer::serve_file_requests() {
@@ -290,8 +332,8 @@ void Viewer::serve_file_requests() {
     state_.save_requested = false;
   }
   if (state_.cancel_requested) state_.reading ? cancel_opening() : cancel_building();
-  if (state_.open_path) open_scene(*state_.open_path, false);
-  if (state_.reload_requested) open_scene(scene_->path, true);
+  if (!state_.open_paths.empty()) open_scene(std::exchange(state_.open_paths, {}), false);
+  if (state_.reload_requested) open_scene({scene_->path}, true);
   if (state_.save_scene_requested) save_scene();
   if (state_.save_to) save_scene_to(*state_.save_to);
   if (state_.close_requested) {
@@ -302,10 +344,10 @@ void Viewer::serve_file_requests() {
       state_.question = Question::quit;
   }
   if (state_.save_and_quit_requested) {
-    quit_after_save_ = true;
+    state_.quit_after_save = true;
+    state_.question = Question::none; // it is answered
     save_scene();
   }
-  state_.open_path.reset();
   state_.save_to.reset();
   state_.cancel_requested = state_.reload_requested = state_.save_scene_requested = state_.close_requested =
       state_.save_and_quit_requested = false;
@@ -329,19 +371,24 @@ void Viewer::write_preferences_if_changed() {
   preferences_.text_zoom = text_zoom_;
   preferences_.speed_factor = state_.speed_factor;
   preferences_.open_sections = ui_.open_sections();
-  if (const ivec2 size(vec2(framebuffer_) / content_scale_); std::min(size.x, size.y) >= 64)
+  if (const ivec2 size = size_at_scale_one(framebuffer_, content_scale_); std::min(size.x, size.y) >= 64)
     preferences_.window = size;
   if (preferences_ == written_preferences_) return;
   written_preferences_ = preferences_;
-  writer_.post(
-      [this, preferences = preferences_, path = options_.preferences_path]() -> TaskThread::Completion {
-        try {
-          write_preferences(preferences, path);
-          return [] {};
-        } catch (const std::exception& error) {
-          return [this, problem = std::string(error.what())] { state_.error = problem; };
-        }
-      });
+  writer_.post([this, preferences = preferences_,
+                path = options_.preferences_path]() -> TaskThread::Completion {
+    try {
+      write_preferences(preferences, path);
+      return [this] { state_.settle(ErrorCause::preferences); };
+    } catch (const std::exception& error) {
+      return [this, problem = std::string(error.what())] { state_.fail(ErrorCause::preferences, problem); };
+    }
+  });
+}
+
+void Viewer::finish_writing() {
+  write_preferences_if_changed();
+  writer_.finish();
 }
 
 void Viewer::save_shown_picture() {
@@ -350,11 +397,12 @@ void Viewer::save_shown_picture() {
         try {
           const SavedPicture saved = save_picture(*image, folder, "candela");
           return [this, saved] {
+            state_.settle(ErrorCause::picture);
             notify(fmt::format("Saved {} and {}", saved.png.lexically_normal().string(),
                                saved.exr.filename().string()));
           };
         } catch (const std::exception& error) {
-          return [this, problem = std::string(error.what())] { state_.error = problem; };
+          return [this, problem = std::string(error.what())] { state_.fail(ErrorCause::picture, problem); };
         }
       });
 }

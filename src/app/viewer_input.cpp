@@ -75,21 +75,31 @@ void Viewer::map_keys() {
 
 /// Dear ImGui 1.86 sees only the state at the beginning of a frame. So a frame takes at most one change of
 /// each button and key, none of a button after the mouse moved (the item below must have seen the mouse
-/// first), and no movement after a button: a fast click is a click, a fast drag begins where it began.
+/// first), and no movement after a button: a fast click is a click, a fast drag begins where it began. Keys
+/// come after what may give the keyboard to somebody else: a click, a command, a field that is about to
+/// appear. Who types on at once must not have the first letters of a name taken for shortcuts.
 bool Viewer::fits_into_frame(const Event& event) const {
   return std::visit(
       Overloaded{
           [&](const MouseMoved&) { return taken_.buttons.empty(); },
           [&](const MouseButtonChanged& e) { return !taken_.moved && !taken_.buttons.contains(e.button); },
           [&](const MouseScrolled&) { return !taken_.moved; },
-          [&](const KeyChanged& e) { return !taken_.typed && !taken_.keys.contains(e.key); },
+          [&](const KeyChanged& e) {
+            return !taken_.typed && !taken_.keys.contains(e.key) && takes_keys(e.down);
+          },
+          [&](const TextTyped&) { return takes_keys(true); },
           [&](const auto&) { return true; },
       },
       event);
 }
 
+bool Viewer::takes_keys(bool pressed) const {
+  return !pressed || (taken_.buttons.empty() && !taken_.ends_keys && field_awaited_ == 0);
+}
+
 void Viewer::feed_events() {
   taken_ = {};
+  field_awaited_ = typing_ ? 0 : std::max(field_awaited_ - 1, 0);
   while (!events_.empty() && fits_into_frame(events_.front())) {
     apply(events_.front());
     events_.pop_front();
@@ -114,15 +124,14 @@ void Viewer::apply(const Event& event) {
                  [&](const KeyChanged& e) { apply_key(e); },
                  [&](const TextTyped& e) {
                    io.AddInputCharacter(e.character);
+                   learn_letter(e.character);
                    taken_.typed = true;
                  },
                  [&](const Resized& e) {
                    framebuffer_ = glm::max(e.framebuffer, ivec2(0));
                    if (e.content_scale > 0) content_scale_ = e.content_scale;
                  },
-                 [&](const FilesDropped& e) {
-                   if (!e.paths.empty()) state_.open_path = e.paths.front();
-                 },
+                 [&](const FilesDropped& e) { take_dropped(e.paths); },
                  [&](const CloseRequested&) { state_.close_requested = true; },
                  [&](const DocumentEdited& e) {
                    e.apply(state_.document);
@@ -152,9 +161,14 @@ void Viewer::apply_key(const KeyChanged& change) {
     held_.erase(change.key);
     return;
   }
+  const bool modifies = change.key >= Key::left_shift && change.key <= Key::right_super;
+  const bool ends_typing = change.key == Key::enter || change.key == Key::keypad_enter ||
+                           change.key == Key::escape || change.key == Key::tab;
+  taken_.ends_keys |= typing_ ? ends_typing : io.KeyCtrl && !modifies;
   if (typing_) return;
   taken_.pressed.push_back({change.key, io.KeyCtrl, io.KeyShift, io.KeyAlt});
-  if (flies(change.key) && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper) held_.insert(change.key);
+  if (flies(change.key) && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper && single_keys_act(change.key))
+    held_.insert(change.key);
 }
 
 FlyCommand Viewer::fly_command() const {

@@ -1,5 +1,6 @@
 // Where the picture and the panels lie, and how they get onto the screen.
 
+#include "app/typeface.h"
 #include "app/ui_style.h"
 #include "app/viewer.h"
 
@@ -30,12 +31,51 @@ void Viewer::update_scale() {
   const float wanted = std::min(content_scale_, std::max(room, 1.0f)) * text_zoom_;
   const float scale = std::clamp(std::round(wanted * 8) / 8, 0.5f, 4.0f); // few steps: each builds an atlas
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-  if (scale == state_.scale && atlas.IsBuilt()) return;
+  if (scale == state_.scale && atlas.IsBuilt() && !glyphs_are_new_) return;
+  glyphs_are_new_ = false;
   state_.scale = scale;
   atlas.Clear();
-  load_fonts(atlas, scale);
+  load_fonts(atlas, scale, glyphs_);
   draw_.upload_fonts(atlas);
   apply_style(scale);
+}
+
+/// An atlas of every letter that there is would take hundreds of megabytes: it gets those that turn up.
+void Viewer::learn_letter(char32_t letter) {
+  constexpr std::size_t kMost = 4000;
+  constexpr char32_t kLastOfImGui = 0xffff; // it knows no others
+  if (!is_common_glyph(letter) && letter <= kLastOfImGui && glyphs_.size() < kMost)
+    glyphs_are_new_ |= glyphs_.insert(letter).second;
+}
+
+void Viewer::learn_letters(std::string_view text) {
+  if (std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; })) return;
+  for (char32_t letter : code_points(text)) learn_letter(letter);
+}
+
+/// Of what is typed, told and may change in any frame.
+void Viewer::learn_letters_of_frame() {
+  for (const std::string* text :
+       {&state_.error, &state_.notice, &state_.loading_path, &state_.path_input, &state_.panorama_input,
+        &state_.save_path, &state_.replace_path, &state_.picture_of, &state_.compare.reference_path,
+        &state_.compare.reference, &state_.inspect.bookmark_name, &state_.document.scene.description})
+    learn_letters(*text);
+}
+
+void Viewer::learn_letters_of_scene() {
+  const SceneDesc& scene = state_.document.scene;
+  auto learn_names = [&](const auto& things) {
+    for (const auto& thing : things) learn_letters(thing.name);
+  };
+  learn_names(scene.instances);
+  learn_names(scene.materials);
+  learn_names(scene.lights);
+  learn_names(scene.bookmarks);
+  for (const auto& texture : scene.textures) learn_letters(texture->name);
+  learn_letters(state_.scene_path);
+  for (const std::string& text : state_.warnings) learn_letters(text);
+  for (const std::string& path : state_.recent) learn_letters(path);
+  for (const auto& path : state_.scenes) learn_letters(path.string());
 }
 
 bool Viewer::shows_panels() const {
@@ -81,10 +121,12 @@ void Viewer::draw_ui() {
   }
   if (state_.compare.active)
     compare_overlay(ui_, state_.compare, compare_panes(), compare_.difference() != nullptr);
-  inspector_.draw(ui_, state_, picture_rect(), free, now_);
-  if (state_.error.empty()) picture_label(ui_, state_, vec2(0));
+  // What tells about the picture begins where neither the lab nor a message covers it.
+  const vec2 clear(state_.lab_visible ? LabPanel::width(state_.scale, free_size.x) : 0, state_.strips_bottom);
+  inspector_.draw(ui_, state_, picture_rect(), free, clear, now_);
+  picture_label(ui_, state_, clear);
   lab_.draw(ui_, state_.lab_visible, vec2(0), free_size);
-  message_strips(ui_, state_, vec2(0), free_size.x);
+  message_strips(ui_, state_, vec2(0), free_size);
   help_overlay(ui_, state_, 0.5f * free_size, 0.96f * free_size);
   const vec2 bottom_center(0.5f * free_size.x, free_size.y);
   if (!shows_panels() && !state_.notice.empty())

@@ -3,6 +3,7 @@
 
 #include "app/orbit_camera.h"
 #include "app/projection.h"
+#include "app/typed_number.h"
 #include "app/viewer.h"
 
 #include <fmt/format.h>
@@ -42,6 +43,7 @@ std::optional<ScreenProjection> Viewer::projection() const {
 void Viewer::set_camera(const Camera& camera) {
   if (camera == state_.document.scene.camera || !camera_problem(camera).empty()) return;
   state_.document.scene.camera = camera;
+  state_.settle(ErrorCause::camera);
   state_.edited = true;
 }
 
@@ -153,7 +155,7 @@ void Viewer::focus_at(vec2 screen_position) {
   Camera& camera = state_.document.scene.camera;
   state_.edited |= camera.focus_distance != found->view_depth;
   camera.focus_distance = found->view_depth;
-  notify(fmt::format("Focus at {:.4g} scene units{}{}", found->view_depth, on,
+  notify(fmt::format("Focus at {}{}{}", scene_units(found->view_depth), on,
                      camera.aperture_radius > 0 ? ""
                                                 : "; a pinhole shows everything sharp: raise Camera, "
                                                   "aperture radius"));

@@ -3,6 +3,7 @@
 #include "app/viewer.h"
 
 #include <imgui.h>
+#include <imgui_internal.h> // the open popups
 
 namespace candela {
 
@@ -23,8 +24,21 @@ std::optional<AxisView> axis_view(Key key, bool control) {
 
 } // namespace
 
+/// Whether something waits for an answer: a question, a field to fill, a list or a picker that is open.
+bool Viewer::asks() const {
+  return state_.question != Question::none || state_.save_as_visible || !imgui_->OpenPopupStack.empty();
+}
+
+/// Keys that are pressed alone belong to what asks, and to the lab while that lies over the view.
+bool Viewer::single_keys_act(Key key) const {
+  if (key == Key::escape) return true;
+  if (asks()) return false;
+  return !state_.lab_visible || key == Key::f1 || key == Key::f2 || key == Key::tab;
+}
+
 void Viewer::run_shortcuts() {
   for (const KeyPress& press : taken_.pressed) {
+    if (!press.control && !single_keys_act(press.key)) continue;
     if (const auto said = inspector_.shortcut(press.key, press.control, state_)) {
       if (!said->empty()) notify(*said);
       continue;
@@ -91,6 +105,8 @@ void Viewer::run_plain_shortcut(Key key) {
 void Viewer::escape() {
   if (gesture_ != Gesture::none)
     cancel_gesture();
+  else if (!imgui_->OpenPopupStack.empty())
+    ImGui::ClosePopupToLevel(0, true);
   else if (state_.reading)
     state_.cancel_requested = true;
   else if (state_.may_stop_building && state_.now - state_.building_since > 1)
@@ -98,13 +114,15 @@ void Viewer::escape() {
   else if (state_.question != Question::none)
     state_.question = Question::none;
   else if (state_.save_as_visible)
-    state_.save_as_visible = false;
+    state_.give_up_saving();
   else if (state_.region_armed)
     state_.region_armed = false;
   else if (state_.help_visible)
     state_.help_visible = false;
   else if (!state_.error.empty())
     state_.error.clear();
+  else if (state_.lab_visible)
+    state_.lab_visible = false;
   else
     state_.selection = {};
 }

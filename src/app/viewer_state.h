@@ -28,6 +28,9 @@ struct PictureRegion {
 /// What a strip over the picture asks; nothing waits for the answer.
 enum class Question { none, quit, reload, replace };
 
+/// What an error is about: it goes when that succeeds, is tried again or is given up.
+enum class ErrorCause { none, open, save, picture, camera, render, preferences };
+
 struct ViewerState {
   Document document;   ///< what the user sees and edits
   Document home;       ///< as it was loaded: what the camera, materials and lights are reset to
@@ -46,6 +49,7 @@ struct ViewerState {
 
   SessionStatus status;
   std::shared_ptr<const DisplayImage> picture; ///< the one on the screen; null before the first
+  std::string picture_of;                      ///< what it shows if not the document; empty: the document
   MeterReadings meter;                         ///< from hand to picture, of late
   float frame_ms = 0;                          ///< CPU time that the last frame of the window took
   int loading = 0;                             ///< scenes being read
@@ -56,7 +60,15 @@ struct ViewerState {
   double loaded = 0;              ///< 0..1: how far reading is
   bool may_stop_building = false; ///< the history has what is shown
 
-  std::string error;                 ///< shown in a strip until dismissed; empty: none
+  std::string error; ///< shown in a strip until its cause is gone or it is dismissed; empty: none
+  ErrorCause error_cause = ErrorCause::none;
+  void fail(ErrorCause cause, std::string text) { error_cause = cause, error = std::move(text); }
+  /// What failed of this cause does so no longer.
+  void settle(ErrorCause cause) {
+    if (error_cause == cause) error.clear();
+  }
+  float strips_bottom = 0;           ///< where the strips at the top of the picture ended in the last frame
+  float told_height = 0;             ///< of those among them that only tell
   std::vector<std::string> warnings; ///< of the scene
   std::string notice;                ///< in the status line for a while
 
@@ -70,6 +82,7 @@ struct ViewerState {
   bool reveal_selection = false; ///< the lists scroll to it once
   Tool tool = Tool::select;
   std::optional<TransformParts> typed_transform; ///< of the selected object, as its fields show it
+  vec3 selection_middle{0};                      ///< of the selected object, in its own space
   bool overlays_visible = true;                  ///< the selection's box and the lights, over the picture
   std::optional<PictureRegion> region;           ///< only this accumulates
   bool region_armed = false;                     ///< the next drag over the picture sets it
@@ -78,7 +91,15 @@ struct ViewerState {
   Question question = Question::none;
   std::string replace_path; ///< the file that Question::replace is about
   bool save_as_visible = false;
-  std::string save_path;           ///< what is typed there
+  std::string save_path;          ///< what is typed there
+  bool save_field_wanted = false; ///< its field is to take the keyboard
+  bool quit_after_save = false;
+  void give_up_saving() {
+    save_as_visible = quit_after_save = false;
+    if (question == Question::replace) question = Question::none;
+    replace_path.clear();
+    settle(ErrorCause::save);
+  }
   std::vector<std::string> recent; ///< scenes opened or saved of late
 
   bool paused = false;   ///< the user's wish; `status` tells what is
@@ -89,7 +110,8 @@ struct ViewerState {
   CompareState compare;
 
   // Requests to the Viewer.
-  std::optional<std::string> open_path; ///< of a scene, or of a picture that is to light this one
+  std::vector<std::string>
+      open_paths; ///< a scene, or a picture that is to light this one; or what was dropped
   bool save_requested = false;
   bool reset_view_requested = false;
   bool refresh_scenes_requested = false;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h> // the selection within a text field
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -52,6 +53,7 @@ void Ui::begin_frame(float scale) {
   widgets_.clear();
   if (!typing_drawn_) typing_ = 0; // its panel was folded away: what was typed is dropped
   typing_drawn_ = false;
+  typed_field_ = std::exchange(typed_now_, std::nullopt);
 }
 
 void Ui::record(std::string name) {
@@ -59,6 +61,7 @@ void Ui::record(std::string name) {
   const ImVec2 clip_lo = list->GetClipRectMin(), clip_hi = list->GetClipRectMax();
   widgets_.push_back({std::move(name), to_vec2(ImGui::GetItemRectMin()), to_vec2(ImGui::GetItemRectMax()),
                       to_vec2(clip_lo), to_vec2(clip_hi)});
+  if (ImGui::IsItemActive() && ImGui::GetIO().WantTextInput) typed_now_ = widgets_.back();
 }
 
 void Ui::record(std::string name, vec2 lo, vec2 hi) {
@@ -67,7 +70,8 @@ void Ui::record(std::string name, vec2 lo, vec2 hi) {
 }
 
 void Ui::tooltip(std::string_view text) {
-  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  if (text.empty() || ImGui::IsAnyItemActive() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(360 * scale_);
   ImGui::TextUnformatted(text.data(), text.data() + text.size());
@@ -143,6 +147,22 @@ bool Ui::text(const char* name, const char* hint, std::string& value, float widt
   const bool entered = ImGui::InputTextWithHint(fmt::format("##{}", name).c_str(), hint, &value,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   record(name);
+  return entered;
+}
+
+bool Ui::asked_path(const char* name, const char* hint, std::string& value, float width, bool& wanted) {
+  const ImGuiID item = ImGui::GetID(fmt::format("##{}", name).c_str());
+  if (wanted && ImGui::GetActiveID() != item) ImGui::SetKeyboardFocusHere();
+  const bool entered = text(name, hint, value, width);
+  if (!wanted || ImGui::GetActiveID() != item) return entered;
+  wanted = false;
+  if (ImGuiInputTextState* state = ImGui::GetInputTextState(item)) { // the folder and the ending mostly stay
+    const std::size_t slash = value.rfind('/'), begin = slash == std::string::npos ? 0 : slash + 1;
+    const std::size_t dot = value.rfind('.'),
+                      end = dot == std::string::npos || dot <= begin ? value.size() : dot;
+    state->Stb.select_start = ImTextCountCharsFromUtf8(value.c_str(), value.c_str() + begin);
+    state->Stb.select_end = state->Stb.cursor = ImTextCountCharsFromUtf8(value.c_str(), value.c_str() + end);
+  }
   return entered;
 }
 

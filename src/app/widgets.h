@@ -5,9 +5,11 @@
 #include "core/fields.h"
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace candela {
@@ -50,6 +52,9 @@ public:
               float initial, std::string_view tooltip);
   /// True when Enter was pressed in it.
   bool text(const char* name, const char* hint, std::string& value, float width);
+  /// The same of a path that is asked for: while `wanted`, the field takes the keyboard, with the file's stem
+  /// selected; then that is done.
+  bool asked_path(const char* name, const char* hint, std::string& value, float width, bool& wanted);
   /// A label and a text that is only read.
   void readout(const char* label, std::string_view value, std::string_view tooltip = {});
 
@@ -61,8 +66,16 @@ public:
   void record(std::string name);
   /// The same for what is drawn without a widget.
   void record(std::string name, vec2 lo, vec2 hi);
-  /// The tooltip of the last item, if the mouse is on it.
+  /// The tooltip of the last item, if the mouse is on it and no hand is at work: it would cover what is
+  /// typed.
   void tooltip(std::string_view text);
+
+  /// Where in the last frame the field was that is typed into; nothing if none is.
+  std::optional<WidgetRecord> typed_field() const { return typed_field_; }
+  /// Why what was typed did not count, once for each time; empty if there is nothing to say.
+  std::string take_refusal() { return std::exchange(refusal_, {}); }
+  /// Until when, on ImGui's clock, the field that refused it is marked.
+  double marked_until() const { return marked_until_; }
 
 private:
   struct NumberStyle {
@@ -83,9 +96,15 @@ private:
   void label_cell(const std::string& name, std::string_view label, bool changed);
   bool double_clicked_here() const;
   bool scalar(const char* id, Scalar& value, const NumberStyle& style, bool& reset);
+  bool type_scalar(unsigned item, const char* id, Scalar& value, const NumberStyle& style);
+  bool take_typed(unsigned item, Scalar& value, const NumberStyle& style);
+  void refuse(unsigned item, std::string why);
+  void mark_refusal(unsigned item) const;
   bool vector_field(const std::string& name, const FieldInfo& row, vec3& value, const FieldContext& context,
                     bool& reset);
   bool color_swatch(const std::string& name, vec3& linear);
+  bool color_picker(const std::string& name, vec3& encoded);
+  bool color_code(const std::string& name, vec3& encoded);
   bool choice_widget(const std::string& name, int& value, std::span<const std::string_view> choices);
   static NumberStyle style_of(const FieldInfo& row, double value, const FieldContext& context);
 
@@ -95,7 +114,11 @@ private:
   // A number that is being typed counts when it is done: 1 and 19 are not meant by who types 192.
   unsigned typing_ = 0; // ImGui's id of the field, 0: none
   bool typing_drawn_ = false;
-  Scalar typed_;
+  std::string typed_, typed_at_first_; // the text in it, and what it was before
+  std::optional<WidgetRecord> typed_field_, typed_now_;
+  std::string refusal_;
+  unsigned refused_by_ = 0; // ImGui's id of a field
+  double marked_until_ = 0;
 };
 
 /// The text of a field's tooltip: key, help, domain, what it restarts, how to edit.

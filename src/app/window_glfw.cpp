@@ -1,5 +1,6 @@
 #include "app/window_glfw.h"
 
+#include "app/process_deadline.h"
 #include "core/error.h"
 
 #define GLFW_INCLUDE_NONE
@@ -8,6 +9,7 @@
 #include <imgui.h>
 
 #include <array>
+#include <optional>
 #include <utility>
 
 namespace candela {
@@ -111,6 +113,8 @@ public:
   Window& operator=(const Window&) = delete;
 
   void run(ViewerDriver* driver);
+  /// Takes the window off the screen, and waits for nothing but what is being saved.
+  void leave();
 
 private:
   void open(ivec2 size); ///< at scale 1
@@ -159,7 +163,10 @@ void Window::open(ivec2 size) {
   int x = 0, y = 0, width = 0, height = 0;
   if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
     glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
-    const ivec2 wanted = ivec2(vec2(size) * monitor_scale(window_));
+    // In the window system's units, which need not be pixels.
+    const ivec2 pixels = size_at_scale(size, monitor_scale(window_));
+    const vec2 unit = framebuffer_position(1, 1);
+    const ivec2 wanted = glm::round(vec2(pixels) / glm::max(unit, vec2(1e-3f)));
     const ivec2 room = width > 0 && height > 0 ? ivec2(width, height) : wanted;
     glfwSetWindowSize(window_, std::min(wanted.x, room.x), std::min(wanted.y, room.y));
   }
@@ -245,6 +252,12 @@ void Window::run(ViewerDriver* driver) {
   run_frames(*viewer_, host, driver);
 }
 
+void Window::leave() {
+  glfwHideWindow(window_);
+  glfwPollEvents();
+  viewer_->finish_writing();
+}
+
 void Window::show() {
   glfwSwapBuffers(window_);
   const int cursor = ImGui::GetMouseCursor();
@@ -262,6 +275,13 @@ void Window::show() {
 
 bool display_available() { return glfwInit() == GLFW_TRUE; }
 
-void run_window(ViewerOptions options, ViewerDriver* driver) { Window(std::move(options)).run(driver); }
+void run_window(ViewerOptions options, ViewerDriver* driver) {
+  constexpr double kSecondsToEnd = 1; // for what ends of itself: passes, reading and building look often
+  std::optional<ProcessDeadline> deadline;
+  Window window(std::move(options));
+  window.run(driver);
+  window.leave();
+  if (driver == nullptr) deadline.emplace(kSecondsToEnd); // a driver has results to tell yet
+}
 
 } // namespace candela

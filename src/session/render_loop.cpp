@@ -36,13 +36,15 @@ void RenderSession::State::render_loop() {
     {
       std::unique_lock lock(mutex);
       auto has_work = [&] {
-        return quit || pending || region_changed || may_improve() || (active && may_go_on());
+        return quit || pending || region_changed || may_improve() ||
+               (active && (may_go_on() || status.phase != SessionPhase::paused));
       };
       if (options.turns && (quit || !has_work())) options.turns->leave(options.side); // nobody waits for it
       changed.wait(lock, has_work);
       if (quit) return;
     }
     const SessionPhase before = status.phase;
+    bool worked = false;
     try {
       if (!take_pending()) improve();
       apply_region();
@@ -50,17 +52,18 @@ void RenderSession::State::render_loop() {
         active = false;
         continue;
       }
-      if (!finished() && begin_pass()) step();
+      worked = !finished() && begin_pass();
+      if (worked) step();
       const bool other_view = spp > 0 && published_view != current.settings.view; // of the same samples
       active = !finished();
-      const bool settled = !active || !goes_on();
+      const bool settled = !active || !goes_on(); // asked once: phase and picture must agree about it
       if (settled || other_view) samples_to_show = 0;
       if (other_view) publish(true);
       if (settled && published_samples != rays.samples) publish(true);
       feed_denoiser(settled);
       std::lock_guard lock(mutex);
       if (active)
-        status.phase = may_go_on() ? SessionPhase::rendering : SessionPhase::paused;
+        status.phase = settled ? SessionPhase::paused : SessionPhase::rendering;
       else if (!pending && !improving())
         status.phase = SessionPhase::finished;
     } catch (const Cancelled&) { // building: a newer Document waits, or the end
@@ -79,7 +82,7 @@ void RenderSession::State::render_loop() {
       active = false;
     }
     changed.notify_all();
-    const bool rests = !active || (status.phase == SessionPhase::paused && status.phase != before);
+    const bool rests = !active || (status.phase == SessionPhase::paused && (worked || status.phase != before));
     if (rests && options.on_publish) options.on_publish(); // the phase is news, too
   }
 }
@@ -123,11 +126,13 @@ bool RenderSession::State::goes_on() const {
   return may_go_on();
 }
 
-/// Whether there still is to be a pass; from now on, whoever wants it to wait must say so again.
+/// Whether there still is to be a pass; from now on, whoever wants it to wait must say so again, and waits for
+/// what has been begun.
 bool RenderSession::State::begin_pass() {
   std::lock_guard lock(mutex);
   if (!may_go_on()) return false;
   hold = false;
+  status.phase = SessionPhase::rendering;
   return true;
 }
 

@@ -228,6 +228,14 @@ TEST(ViewerCompareUi, NoiseIsEstimatedWithoutAReference) {
   hand.wait_until("the last pictures are measured", [&] {
     return is_measured(1, hand.viewer.session()) && is_measured(0, *hand.viewer.comparison().other_session());
   });
+  hand.type_into("display.exposure", "1"); // which no noise depends on
+  hand.wait_until("the exposure is shown", [&] {
+    const auto exposed = [](const RenderSession& session) { return session.display()->display.exposure == 1; };
+    return exposed(hand.viewer.session()) && exposed(*hand.viewer.comparison().other_session());
+  });
+  hand.frame(2);
+  EXPECT_TRUE(is_measured(0, *hand.viewer.comparison().other_session()));
+  EXPECT_TRUE(is_measured(1, hand.viewer.session()));
   EXPECT_TRUE(hand.find("compare.noise"));
   EXPECT_TRUE(hand.find("compare.plot"));
   hand.click("panel.display"); // fold what is below

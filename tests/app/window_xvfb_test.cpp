@@ -174,6 +174,82 @@ TEST_F(RealWindowUi, FliesSavesAndCloses) {
   EXPECT_EQ(candela.wait(30), 0) << read_text(log);
 }
 
+// A path of it may go on for as long as it likes: the window does not ask it.
+TEST_F(RealWindowUi, ClosesAtOnceAndLosesNoPicture) {
+  ScratchFolder folder;
+  write_text(folder / "glass.json", R"({"candela": 1, "camera": {"position": [0, 0, 0], "target": [1, 1, 1]},
+    "materials": [{"name": "g", "type": "dielectric", "ior": 1.5}],
+    "instances": [{"shape": "cube", "material": "g"}], "lights": [{"type": "constant", "color": 1}]})");
+  write_candela_json(test_document(), folder / "room.json");
+  const XServer server(folder.path(), {1280, 720});
+  const fs::path log = folder / "candela.log";
+  for (const char* scene : {"glass", "room"}) {
+    SCOPED_TRACE(scene);
+    Process candela({CANDELA_PROGRAM, "view", fmt::format("{}.json", scene), "--no-preferences"},
+                    folder.path(), server.display(), log);
+    auto window = [&] {
+      return server.xdotool(
+          fmt::format("search --onlyvisible --name '{}.json - Candela' 2>/dev/null", scene));
+    };
+    ASSERT_TRUE(comes_true([&] { return !window().empty(); })) << read_text(log);
+    server.xdotool("mousemove 300 300");
+    std::this_thread::sleep_for(std::chrono::seconds(1)); // into the middle of it
+    server.xdotool("key p key ctrl+q");
+    EXPECT_EQ(candela.wait(30), 0) << read_text(log);
+    EXPECT_EQ(window(), "");
+  }
+  EXPECT_EQ(read_text(log), "");
+  std::size_t pictures = 0;
+  for (const auto& file : fs::directory_iterator(folder.path())) {
+    const std::string ending = file.path().extension();
+    if (ending != ".png" && ending != ".exr") continue;
+    EXPECT_EQ(read_image(file.path().string()).width, 1280) << file.path();
+    ++pictures;
+  }
+  EXPECT_GE(pictures, 2u) << "at least the room's";
+}
+
+TEST_F(RealWindowUi, OpensAgainAsLargeAsItWas) {
+  ScratchFolder folder;
+  write_candela_json(test_document(), folder / "room.json");
+  const XServer server(folder.path(), {2400, 1700}); // on which text is 1.574 times as large
+  const fs::path log = folder / "candela.log";
+  for (int day = 0; day < 3; ++day) {
+    Process candela({"env", "XDG_CONFIG_HOME=" + folder.path(), CANDELA_PROGRAM, "view", "room.json"},
+                    folder.path(), server.display(), log);
+    ASSERT_TRUE(comes_true([&] {
+      return !server.xdotool("search --onlyvisible --name 'room.json - Candela' 2>/dev/null").empty();
+    })) << read_text(log);
+    server.xdotool("mousemove 300 300 key ctrl+q");
+    ASSERT_EQ(candela.wait(30), 0) << read_text(log);
+    std::string warning;
+    const Preferences kept =
+        read_preferences(fs::path(folder.path()) / "candela" / "preferences.json", warning);
+    EXPECT_EQ(warning, "");
+    EXPECT_EQ(kept.window, Preferences().window) << "day " << day;
+  }
+}
+
+TEST_F(RealWindowUi, SaveAsIsTypedIntoAtOnce) {
+  ScratchFolder folder;
+  write_candela_json(test_document(), folder / "room.json");
+  const XServer server(folder.path(), {1280, 720});
+  const fs::path log = folder / "candela.log";
+  Process candela({CANDELA_PROGRAM, "view", "room.json", "--no-preferences"}, folder.path(), server.display(),
+                  log);
+  auto window = [&](const char* title) {
+    return server.xdotool(fmt::format("search --onlyvisible --name '{}' 2>/dev/null", title));
+  };
+  ASSERT_TRUE(comes_true([&] { return !window("room.json - Candela").empty(); })) << read_text(log);
+  server.xdotool("mousemove 300 300 key ctrl+shift+s type --delay 0 kpcl");
+  server.xdotool("key Return");
+  ASSERT_TRUE(comes_true([&] { return !window("kpcl.json - Candela").empty(); }, 20)) << read_text(log);
+  EXPECT_TRUE(fs::exists(folder / "kpcl.json"));
+  EXPECT_FALSE(fs::exists(folder / "candela-0001.png")) << "a letter of the name has saved a picture";
+  server.xdotool("key ctrl+q");
+  EXPECT_EQ(candela.wait(30), 0) << read_text(log);
+}
+
 TEST_F(RealWindowUi, WithoutADisplayItSaysSo) {
   ScratchFolder folder;
   const fs::path log = folder / "candela.log";

@@ -50,6 +50,22 @@ TEST(SessionControl, AnEditWhilePausedShowsItsFirstPass) {
   }
 }
 
+// A pause may come at any moment of the render thread's loop: between looking whether to go on and saying what
+// phase it is, or after that. Tiny portions make each such moment likely.
+TEST(SessionControl, EveryPauseIsReachedAndShowsEverySample) {
+  RenderSession session({.threads = 1});
+  session.submit(small_cornell(0, 2, 2));
+  for (int i = 0; i < 4000; ++i) {
+    session.pause(true);
+    ASSERT_TRUE(session.wait_finished(10)) << "pause " << i << " is never reached";
+    const SessionStatus status = session.status();
+    ASSERT_EQ(status.phase, SessionPhase::paused);
+    ASSERT_EQ(session.latest()->rays.samples, status.rays.samples) << "pause " << i << " hides samples";
+    session.pause(false);
+    std::this_thread::sleep_for(std::chrono::microseconds(i % 64));
+  }
+}
+
 TEST(SessionControl, AStepIsOneSampleAPixel) {
   RenderSession session;
   session.pause(true);

@@ -1,0 +1,27 @@
+#pragma once
+// The end of the program where a part of it cannot be stopped.
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace candela {
+
+/// Ends the process with the exit code 0 unless it is destroyed within so many seconds: for the time when
+/// nothing can be lost any more, and what is still under way (a library that decodes a picture, a disk that
+/// does not answer) cannot be interrupted and interests nobody.
+class ProcessDeadline {
+public:
+  explicit ProcessDeadline(double seconds);
+  ~ProcessDeadline();
+  ProcessDeadline(const ProcessDeadline&) = delete;
+  ProcessDeadline& operator=(const ProcessDeadline&) = delete;
+
+private:
+  std::mutex mutex_;
+  std::condition_variable kept_;
+  bool is_kept_ = false;
+  std::thread thread_;
+};
+
+} // namespace candela
