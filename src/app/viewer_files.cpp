@@ -158,7 +158,8 @@ void Viewer::install_scene(Document document, std::string path, std::vector<std:
 void Viewer::show_state(const EditState& edit, const FileStamps& read) {
   state_.document = edit.document;
   state_.fit_film = edit.fit_film;
-  if (std::exchange(scene_, edit.scene) != edit.scene) {
+  const bool is_other = std::exchange(scene_, edit.scene) != edit.scene;
+  if (is_other) {
     watch_files(read);
     scene_is_new_ = true;
   }

@@ -64,10 +64,15 @@ const Field<Document> kTable[] = {
       "Density of the next direction: uniform, by the cosine, or by the material", kImage, kDirections},
      AT(settings.path.direction_sampling)},
     {{"path.max_depth", FieldType::integer, -1, 1000000, "segments",
-      "Longest path: 1 shows lights alone, 2 direct light, -1 has no limit (a limit loses light)"},
+      "Longest path: 1 shows lights alone, 2 direct light, -1 has no limit (a limit loses light), but for "
+      "1024 with "
+      "path.rr = off"},
      AT(settings.path.max_depth)},
     {{"path.rr", FieldType::choice, 0, 0, "",
-      "Russian roulette: off, by the path's throughput, or with a fixed chance", kImage, kRoulette},
+      "Russian roulette: off, by the path's throughput, or with a fixed chance; from 64 segments on at most "
+      "0.99 of the "
+      "paths go on, whatever they carry, so that all end",
+      kImage, kRoulette},
      AT(settings.path.rr)},
     {{"path.rr_depth", FieldType::integer, 0, 1000000, "segments", "Segments before Russian roulette starts"},
      AT(settings.path.rr_depth)},

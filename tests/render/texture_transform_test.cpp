@@ -14,11 +14,7 @@ TEST(TextureTransform, ScalesThenMovesUv) {
   SurfaceMaterial material;
   material.bsdf = Diffuse{vec3(1)};
   material.diffuse_texture = &texture;
-  auto color = [&](vec2 uv) {
-    Surface surface{};
-    surface.uv = uv;
-    return std::get<Diffuse>(evaluate_bsdf(material, surface)).reflectance;
-  };
+  auto color = [&](vec2 uv) { return std::get<Diffuse>(evaluate_bsdf(material, uv)).reflectance; };
   const vec3 red(1, 0, 0), green(0, 1, 0);
   EXPECT_EQ(color({0.25f, 0.5f}), red);
   material.diffuse_uv = {vec2(2), vec2(0)};
