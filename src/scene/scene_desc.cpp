@@ -299,6 +299,7 @@ FieldInfo shape_limits(const Shape& shape, const Field<Shape>& row) {
     return decimal;
   };
   limits.minimum = shown(lo);
+  limits.above_minimum = false; // these fit themselves
   limits.maximum = shown(hi);
   return limits;
 }

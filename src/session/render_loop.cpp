@@ -82,7 +82,8 @@ void RenderSession::State::render_loop() {
       active = false;
     }
     changed.notify_all();
-    const bool rests = !active || (status.phase == SessionPhase::paused && (worked || status.phase != before));
+    const bool rests =
+        !active || (status.phase == SessionPhase::paused && (worked || status.phase != before));
     if (rests && options.on_publish) options.on_publish(); // the phase is news, too
   }
 }
@@ -126,8 +127,8 @@ bool RenderSession::State::goes_on() const {
   return may_go_on();
 }
 
-/// Whether there still is to be a pass; from now on, whoever wants it to wait must say so again, and waits for
-/// what has been begun.
+/// Whether there still is to be a pass; from now on, whoever wants it to wait must say so again, and waits
+/// for what has been begun.
 bool RenderSession::State::begin_pass() {
   std::lock_guard lock(mutex);
   if (!may_go_on()) return false;

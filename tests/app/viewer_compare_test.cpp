@@ -230,7 +230,9 @@ TEST(ViewerCompareUi, NoiseIsEstimatedWithoutAReference) {
   });
   hand.type_into("display.exposure", "1"); // which no noise depends on
   hand.wait_until("the exposure is shown", [&] {
-    const auto exposed = [](const RenderSession& session) { return session.display()->display.exposure == 1; };
+    const auto exposed = [](const RenderSession& session) {
+      return session.display()->display.exposure == 1;
+    };
     return exposed(hand.viewer.session()) && exposed(*hand.viewer.comparison().other_session());
   });
   hand.frame(2);

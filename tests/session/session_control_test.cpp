@@ -50,8 +50,8 @@ TEST(SessionControl, AnEditWhilePausedShowsItsFirstPass) {
   }
 }
 
-// A pause may come at any moment of the render thread's loop: between looking whether to go on and saying what
-// phase it is, or after that. Tiny portions make each such moment likely.
+// A pause may come at any moment of the render thread's loop: between looking whether to go on and saying
+// what phase it is, or after that. Tiny portions make each such moment likely.
 TEST(SessionControl, EveryPauseIsReachedAndShowsEverySample) {
   RenderSession session({.threads = 1});
   session.submit(small_cornell(0, 2, 2));
