@@ -87,7 +87,14 @@ void DirectLight::set_ray(ShadowRay& shadow) const {
 /// Gives seekers the light that reaches them.
 void DirectLight::look(const RenderScene& scene, LightSeekers& seekers, RayCounts& counts, StopPoll& stop) {
   const std::span<const ShadowRay> shadows(shadows_.data(), shadow_count_);
-  if (!seekers.neighbours || scene.has_transparency() || scene.has_absorption()) {
+  const bool anything_passes = scene.has_transparency() || scene.has_absorption();
+  if (!seekers.neighbours && !anything_passes) {
+    counts.shadow += shadows.size();
+    for (const ShadowRay& shadow : shadows)
+      if (!scene.geometry().accel().occluded(shadow.ray)) seekers.light[shadow.lane] += shadow.light;
+    return;
+  }
+  if (anything_passes) {
     for (const ShadowRay& shadow : shadows) {
       if (stop.asked()) return;
       const Interiors* interiors = scene.has_absorption() ? seekers.interiors[shadow.lane] : nullptr;

@@ -191,23 +191,25 @@ std::uint32_t LightTree::flatten(const std::vector<BinaryNode>& nodes, std::uint
 }
 
 float LightTree::judge(const Node& node, const LightReference& ref, Weights& weights) {
-  return ref.gloss.peak > 0 ? judge_as<true>(node, ref, weights) : judge_as<false>(node, ref, weights);
+  const bool glossy = ref.gloss.peak > 0;
+  if (ref.transmits)
+    return glossy ? judge_as<true, true>(node, ref, weights) : judge_as<false, true>(node, ref, weights);
+  return glossy ? judge_as<true, false>(node, ref, weights) : judge_as<false, false>(node, ref, weights);
 }
 
 /// Estimates of what the branches' light does at the reference (section 4.3, eq. 3; without trigonometry as
 /// in pbrt-v4), and their sum. Sines and cosines clamp at 0: cos_minus(a, b) is cos(max(a - b, 0)).
-template <bool kGlossy>
+template <bool kGlossy, bool kTransmits>
 float LightTree::judge_as(const Node& n, const LightReference& ref, Weights& weights) {
   Lanes w;
   const vec3 p = ref.position, up = ref.normal, mirrored = ref.mirrored;
   const Gloss gloss = ref.gloss;
-  const float behind = ref.transmits ? -1.0f : 1.0f; // of the cosine, for what the reference accepts there
   for (std::size_t i = 0; i < kWidth; ++i) {
     const float dx = n.x[i] - p.x, dy = n.y[i] - p.y, dz = n.z[i] - p.z; // towards the light
     const float d2 = std::max(dx * dx + dy * dy + dz * dz, kLeastDistance2);
     const float inverse = 1 / std::sqrt(d2);
     const float cosine = (dx * up.x + dy * up.y + dz * up.z) * inverse;
-    const float cos_up = std::max(cosine, behind * cosine);
+    const float cos_up = kTransmits ? std::abs(cosine) : cosine; // what is behind is accepted, or is not
     float cos_w = -(dx * n.axis_x[i] + dy * n.axis_y[i] + dz * n.axis_z[i]) * inverse;
     cos_w = std::max(cos_w, -n.other_side[i] * cos_w);
     const float sin_w = std::sqrt(std::max(1 - cos_w * cos_w, 0.0f));

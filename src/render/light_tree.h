@@ -91,7 +91,7 @@ private:
   std::optional<LightChoice> descend(const LightReference& ref, float u) const;
   float ascend(const LightReference& ref, std::uint32_t light) const;
   static float judge(const Node& node, const LightReference& ref, Weights& weights);
-  template <bool kGlossy>
+  template <bool kGlossy, bool kTransmits>
   static float judge_as(const Node& node, const LightReference& ref, Weights& weights);
   float judge_root(const LightReference& ref, Weights& weights) const;
 

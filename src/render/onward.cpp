@@ -29,9 +29,9 @@ namespace {
     // The interpolated normal may take it through the surface.
     float along = glm::dot(wi, outside);
     bool keeps_side = (along * vertices.side[i] > 0) == (local.z * vertices.wo_local.z[i] > 0);
-    bool folded = static_cast<int>(!keeps_side) & out.folds[i] & static_cast<int>(along != 0);
-    wi = select(folded, mirrored_at_plane(wi, outside), wi);
-    keeps_side = static_cast<int>(keeps_side) | static_cast<int>(folded);
+    // As factors, for the compiler gives up the vector code where integers choose among floats.
+    float fold = keeps_side ? 0.0f : out.folds[i];
+    wi = wi - 2 * fold * along * outside;
     vec3 carried = out.throughput[i];
     float largest = max_component(carried);
     float worth = largest * out.unscaled[i] / roulette.threshold;
@@ -43,7 +43,7 @@ namespace {
     out.throughput.set(i, carried / q);
     out.direction.set(i, wi);
     out.origin.set(i, offset_ray_origin(vertices.position[i], vertices.position_error[i], outside, wi));
-    out.goes_on[i] = static_cast<int>(keeps_side) & static_cast<int>(out.u[i] < q);
+    out.goes_on[i] = static_cast<int>(out.u[i] < (keeps_side ? q : q * out.folds[i]));
   }
 }
 

@@ -24,11 +24,11 @@ float survival_bound(int depth);
 /// A direction from each lane of VertexLanes, at most.
 struct OnwardLanes {
   // What is asked:
-  Vec3Lanes wi_local;        ///< unit, about the normal
-  Vec3Lanes throughput;      ///< of the path with this direction, before roulette; after it when chosen
-  Lanes<float> unscaled;     ///< what roulette multiplies it by, see PathTracer::Path
-  Lanes<float> u;            ///< roulette's number
-  Lanes<std::int32_t> folds; ///< 1 or 0: what is on the wrong side of the surface is folded back
+  Vec3Lanes wi_local;    ///< unit, about the normal
+  Vec3Lanes throughput;  ///< of the path with this direction, before roulette; after it when chosen
+  Lanes<float> unscaled; ///< what roulette multiplies it by, see PathTracer::Path
+  Lanes<float> u;        ///< roulette's number
+  Lanes<float> folds;    ///< 1 or 0: what is on the wrong side of the surface is folded back
   // What comes of it:
   Vec3Lanes origin, direction;
   Lanes<std::int32_t> goes_on; ///< 1 or 0: ended by roulette, or through the surface

@@ -36,21 +36,25 @@ bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
   results_ = results;
   counts_ = {};
   paths_.clear();
+  interiors_.clear();
   for (std::uint32_t i = 0; i < starts.size(); ++i) {
     results_[i] = {};
     Path& path = paths_.emplace_back(starts[i]);
     path.result = i;
     path.split = starts[i].sampler.sample() == 0;
+    if (scene_.has_absorption()) interiors_.push_back(starts[i].interiors);
   }
   for (int depth = 1; depth <= last_depth_ && !paths_.empty(); ++depth) {
     intersect(depth, stop);
     meet_emitters(depth);
     next_.clear();
+    next_interiors_.clear();
     if (depth < last_depth_)
       for (std::size_t begin = 0; begin < arrived_.size(); begin += kLaneCount)
         stop_at(begin, std::min(kLaneCount, arrived_.size() - begin), depth, stop);
     if (stop.asked()) return false;
     std::swap(paths_, next_);
+    std::swap(interiors_, next_interiors_);
   }
   counts += counts_;
   return true;
@@ -79,7 +83,7 @@ void PathTracer::intersect(int depth, StopPoll& stop) {
     if (together) hit = hits_[i];
     bool met;
     if (scene_.has_absorption())
-      met = meet_in_bodies(path, together, hit.t < kInfinity, hit);
+      met = meet_in_bodies(i, together, hit.t < kInfinity, hit);
     else if (together)
       met = look_through(scene_, path.ray, path.sampler, hit.t < kInfinity, hit, counts_);
     else
@@ -92,13 +96,14 @@ void PathTracer::intersect(int depth, StopPoll& stop) {
   if (shows_depth(settings_, depth)) meet_background(depth);
 }
 
-/// Whether the path's ray meets a surface, and what is left of its light there. `known`: what it meets first
-/// is, as look_through() has it.
-bool PathTracer::meet_in_bodies(Path& path, bool known, bool met, Hit& hit) {
-  Passage passage{path.interiors, vec3(1)};
+/// Whether the ray of paths_[index] meets a surface, and what is left of its light there. `known`: what it
+/// meets first is, as look_through() has it.
+bool PathTracer::meet_in_bodies(std::size_t index, bool known, bool met, Hit& hit) {
+  Path& path = paths_[index];
+  Passage passage{interiors_[index], vec3(1)};
   met = known ? look_through(scene_, path.ray, path.sampler, met, hit, counts_, &passage)
               : intersect_scene(scene_, path.ray, path.sampler, hit, counts_, &passage);
-  path.interiors = passage.interiors;
+  interiors_[index] = passage.interiors;
   path.throughput *= passage.transmittance;
   return met;
 }
@@ -140,7 +145,7 @@ void PathTracer::stop_at(std::size_t begin, std::size_t count, int depth, StopPo
     seekers_.lane[seekers_.count++] = i;
     seekers_.sampler[i] = &path.sampler;
     seekers_.scattered[i] = branches;
-    seekers_.interiors[i] = &path.interiors;
+    if (scene_.has_absorption()) seekers_.interiors[i] = &interiors_of(path);
   }
   if (shows_depth(settings_, depth + 1)) {
     direct_light_.aim(scene_, vertices_, seekers_, settings_, counts_, stop);
@@ -243,7 +248,6 @@ bool PathTracer::leave(std::uint32_t branch, int depth) {
     std::uint32_t k; ///< index into from
     float density;   ///< Path::arrival_density
     bool delta;
-    bool transmitted; ///< to the other side of the surface
   };
   Lanes<Leaving> leaving;
   std::size_t left = 0;
@@ -254,17 +258,25 @@ bool PathTracer::leave(std::uint32_t branch, int depth) {
                               settings_.direction_sampling);
     if (!s) continue;
     const auto branches = static_cast<float>(stop.branches);
-    const bool folds = several_lobes_ && vertices_.folds(i);
-    float pdf = s->pdf;
-    if (folds && !s->delta) pdf += vertices_.folded_pdf(i, s->wi, settings_.direction_sampling);
-    onward_.folds[i] = static_cast<std::int32_t>(folds);
-    leaving[left++] = {k, pdf * branches, s->delta, !same_hemisphere(vertices_.wo_local[i], s->wi)};
+    leaving[left++] = {k, s->pdf * branches, s->delta};
     onward_.wi_local.set(i, s->wi);
     onward_.throughput.set(i, stop.path->throughput / branches * s->weight);
     onward_.unscaled[i] = stop.path->roulette_scale * branches * sqr(s->eta);
     onward_.u[i] = roulette_u[k];
   }
+  // Apart from the loop above, which is quicker without.
+  onward_.folds.fill(0);
+  for (std::uint32_t n = 0; several_lobes_ && n < left; ++n) {
+    const Stop& stop = *from[leaving[n].k];
+    const std::uint32_t i = stop.lane;
+    if (!vertices_.folds(i)) continue;
+    onward_.folds[i] = 1;
+    if (!leaving[n].delta)
+      leaving[n].density += static_cast<float>(stop.branches) *
+                            vertices_.folded_pdf(i, onward_.wi_local[i], settings_.direction_sampling);
+  }
   onward_.choose(vertices_, Roulette::at(settings_, depth));
+  const bool absorbs = scene_.has_absorption();
   // Who survives cannot be predicted.
   Lanes<std::uint32_t> going;
   std::size_t survivors = 0;
@@ -285,8 +297,11 @@ bool PathTracer::leave(std::uint32_t branch, int depth) {
     path.arrived_by_delta = leaving[n].delta;
     path.arrival_density = leaving[n].density;
     path.reference = vertices_.reference[i];
-    path.interiors = stop.path->interiors;
-    if (leaving[n].transmitted) path.interiors.cross(vertices_.material[i]->interior, vertices_.side[i] > 0);
+    if (absorbs) {
+      Interiors& interiors = next_interiors_.emplace_back(interiors_of(*stop.path));
+      if (!same_hemisphere(vertices_.wo_local[i], onward_.wi_local[i])) // it goes through the surface
+        interiors.cross(vertices_.material[i]->interior, vertices_.side[i] > 0);
+    }
   }
   return true;
 }

@@ -50,8 +50,7 @@ public:
 private:
   /// A walk on its way: what the next vertex needs to know of those before.
   struct Path {
-    explicit Path(const PathStart& start)
-        : ray(start.ray), sampler(start.sampler), interiors(start.interiors) {}
+    explicit Path(const PathStart& start) : ray(start.ray), sampler(start.sampler) {}
     explicit Path(const Sampler& s) : sampler(s) {}
 
     Ray ray;
@@ -62,7 +61,6 @@ private:
     float roulette_scale = 1;
     std::uint32_t result = 0; ///< the sample that it adds to
     bool split = false;       ///< has, or may not any more
-    Interiors interiors;      ///< of the ray, in scenes with absorption
     // The last vertex: how the path left it.
     bool arrived_by_delta = true; ///< the camera cannot be aimed from
     float arrival_density = 0;    ///< 1/sr, times the number of directions tried there
@@ -81,7 +79,10 @@ private:
   void stop_at(std::size_t begin, std::size_t count, int depth, StopPoll& stop);
   void prepare_aiming(std::size_t lane);
   bool leave(std::uint32_t branch, int depth);
-  bool meet_in_bodies(Path& path, bool known, bool met, Hit& hit);
+  bool meet_in_bodies(std::size_t path, bool known, bool met, Hit& hit);
+  Interiors& interiors_of(const Path& path) {
+    return interiors_[static_cast<std::size_t>(&path - paths_.data())];
+  }
 
   void meet_background(int depth);
   void add_background(const Path& path, std::uint32_t light, vec3 radiance, float pdf, int depth);
@@ -97,6 +98,8 @@ private:
   std::span<PathSample> results_;
   RayCounts counts_;
   std::vector<Path> paths_, next_;
+  /// Of their rays, parallel to them; in scenes with absorption alone. (In Path they cost all scenes 2 %.)
+  std::vector<Interiors> interiors_, next_interiors_;
   std::vector<const Ray*> rays_; ///< of the paths, where they are traced together
   std::vector<Path*> missed_;
   std::vector<EnvironmentMap::Place> places_; ///< parallel to missed_

@@ -10,8 +10,8 @@ constexpr std::uint32_t kMaxCrossings = 1024;
 
 } // namespace
 
-bool look_through(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met, Hit& hit,
-                  RayCounts& counts, Passage* passage) {
+bool detail::look_through_bodies(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met,
+                                 Hit& hit, RayCounts& counts, Passage* passage) {
   auto advance = [&](float distance) {
     if (passage != nullptr) passage->transmittance *= transmittance(scene, passage->interiors, distance);
   };
@@ -33,13 +33,6 @@ bool look_through(const RenderScene& scene, Ray& ray, const Sampler& sampler, bo
   }
   advance(kInfinity);
   return false;
-}
-
-bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit, RayCounts& counts,
-                     Passage* passage) {
-  ++counts.closest;
-  const bool met = scene.geometry().accel().intersect(ray, hit);
-  return look_through(scene, ray, sampler, met, hit, counts, passage);
 }
 
 vec3 visibility(const RenderScene& scene, const Ray& towards, vec3 target, bool infinite, RayCounts& counts,

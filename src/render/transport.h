@@ -18,15 +18,30 @@ struct Passage {
   vec3 transmittance{1}; ///< what is left of the light on the way so far
 };
 
-/// The closest surface of the ray, looking through what is transparent with the chance of 1 - opacity; each
-/// crossing has a random number of its own. The ray, of unit direction, then starts behind the last one that
-/// it passed. `passage`, which is null in scenes without absorption, is brought to the surface, or to
-/// infinity.
-bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit, RayCounts& counts,
-                     Passage* passage = nullptr);
-/// The same where it is known what the ray meets first, or (not `met`) that it meets nothing.
-bool look_through(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met, Hit& hit,
-                  RayCounts& counts, Passage* passage = nullptr);
+namespace detail {
+
+/// look_through() where anything is transparent or absorbs.
+bool look_through_bodies(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met, Hit& hit,
+                         RayCounts& counts, Passage* passage);
+
+} // namespace detail
+
+/// What a ray of unit direction meets first, or (not `met`) that it meets nothing, is known: whether it meets
+/// a surface, looking through what is transparent with the chance of 1 - opacity; each crossing has a random
+/// number of its own. The ray then starts behind the last one that it passed. `passage`, which is null in
+/// scenes without absorption, is brought to the surface, or to infinity.
+inline bool look_through(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met, Hit& hit,
+                         RayCounts& counts, Passage* passage = nullptr) {
+  if (!scene.has_transparency() && passage == nullptr) return met;
+  return detail::look_through_bodies(scene, ray, sampler, met, hit, counts, passage);
+}
+/// The same where it is not known.
+inline bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit,
+                            RayCounts& counts, Passage* passage = nullptr) {
+  ++counts.closest;
+  const bool met = scene.geometry().accel().intersect(ray, hit);
+  return look_through(scene, ray, sampler, met, hit, counts, passage);
+}
 
 /// Share of the light that comes through where the ray goes: 0 or 1, or the product of what the transparent
 /// surfaces and the bodies there let pass. The ray leads to t = 1 at `target`, or on for ever if `infinite`.

@@ -106,9 +106,8 @@ MirroredPair mirrored_pair(const VertexLanes& v, std::size_t i, vec3 wi_local) {
 
 } // namespace
 
-BsdfEval VertexLanes::eval_pdf(std::size_t i, vec3 wi_local, DirectionSampling how) const {
-  const BsdfEval own = direction_eval_pdf(bsdf(i), wo_local[i], wi_local, how);
-  if (!folds(i)) return own;
+BsdfEval VertexLanes::folded_eval_pdf(std::size_t i, vec3 wi_local, DirectionSampling how,
+                                      const BsdfEval& own) const {
   const MirroredPair pair = mirrored_pair(*this, i, wi_local);
   BsdfEval sum{vec3(0), 0};
   auto add = [&](const BsdfEval& e) { sum = {sum.f_cos + e.f_cos, sum.pdf + e.pdf}; };

@@ -33,9 +33,14 @@ struct VertexLanes {
   bool folds(std::size_t i) const { return folds_directions(bsdf(i), normal[i], geometric_normal[i]); }
   /// f |cos| and the density of wi (local, unit) under `how`, without delta lobes, what is folded onto it
   /// included.
-  BsdfEval eval_pdf(std::size_t i, vec3 wi_local, DirectionSampling how) const;
+  BsdfEval eval_pdf(std::size_t i, vec3 wi_local, DirectionSampling how) const {
+    const BsdfEval own = direction_eval_pdf(bsdf(i), wo_local[i], wi_local, how);
+    return folds(i) ? folded_eval_pdf(i, wi_local, how, own) : own;
+  }
   /// Density that folding adds to a direction that was sampled, before or after it was folded itself.
   float folded_pdf(std::size_t i, vec3 wi_local, DirectionSampling how) const;
+  /// eval_pdf() of a lane that folds, from what it is without.
+  BsdfEval folded_eval_pdf(std::size_t i, vec3 wi_local, DirectionSampling how, const BsdfEval& own) const;
   /// As Vertex::scatters().
   bool scatters(std::size_t i) const { return wo_local.z[i] * side[i] > 0; }
 };

@@ -94,8 +94,8 @@ TEST(AbsorptionRender, ALensMayStandOnBothSidesOfASurface) {
   s.document.scene.camera.aperture_radius = 0.01f;
   s.document.scene.camera.focus_distance = 1e6f; // rays are parallel
   s.document.settings.sampler.seed = sampler_seed(2);
-  // The share of the lens that is outside, less a strip; rays that cross the surface on their way are too few to
-  // matter.
+  // The share of the lens that is outside, less a strip; rays that cross the surface on their way are too few
+  // to matter.
   const double outside = 0.5 - 2 * 1e-4 / (std::numbers::pi * 0.01);
   EXPECT_NEAR(over_pixels(render(s.document), 1).mean(), outside + (1 - outside) * std::exp(-4.0), 2e-3);
 }
