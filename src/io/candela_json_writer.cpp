@@ -120,9 +120,9 @@ private:
     for (const Material& material : scene_.materials) {
       std::vector<std::string> members;
       if (!material.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(material.name)));
-      Material standard = default_material(material.type);
-      standard.type = {}; // which is written, too
-      for (std::string& row : changed_rows(material_fields(), material, "", standard))
+      Material defaults = default_material(material.type);
+      defaults.type = {}; // which is written, too
+      for (std::string& row : changed_rows(material_fields(), material, "", defaults))
         members.push_back(std::move(row));
       if (material.diffuse_texture >= 0)
         members.push_back(
