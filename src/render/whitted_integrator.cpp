@@ -56,7 +56,6 @@ private:
         return;
       }
       const Vertex vertex(scene_, path.ray, hit);
-      const Surface& surface = vertex.surface;
       const SurfaceMaterial& material = *vertex.material;
       bool outside = vertex.side > 0;
       if (material.emissive && (outside || material.two_sided_emission) && shows_depth(settings_, depth))
