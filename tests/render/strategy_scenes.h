@@ -137,19 +137,26 @@ inline Document environment_scene() {
   return s.document;
 }
 
-/// Coarse meshes with interpolated normals, which take many directions to the wrong side of the surface.
+/// Flat pieces whose normals lean away so far that about half of the lobes lies on the wrong side of the
+/// surface.
 inline Document smooth_gloss_scene() {
   SceneMaker s(8, 8, 1);
-  s.rectangle({0, -1, 0}, {0, 0, 4}, {4, 0, 0}, s.diffuse(vec3(0.5f)));
-  const Material kinds[] = {strategy_material(MaterialType::ggx, vec3(0), {0.9f, 0.8f, 0.7f}),
-                            strategy_material(MaterialType::phong, vec3(0.3f), vec3(0.6f))};
-  for (int i = 0; i < 2; ++i)
-    s.mesh(sphere_mesh(4, 6, true), s.material(kinds[i]),
-           glm::translate(mat4(1), {i == 0 ? -1.1f : 1.1f, 0, 0}));
-  s.rectangle({0, 3, -1}, {1, 0, 0}, {0, 0, 1}, s.diffuse(vec3(0), vec3(6)));
-  s.rectangle({0, 0, -4}, {3, 0, 0}, {0, 3, 0}, s.diffuse(vec3(0.2f), vec3(0.5f)));
+  Material gloss = strategy_material(MaterialType::ggx, vec3(0), {0.9f, 0.8f, 0.7f});
+  gloss.roughness = 0.5f;
+  Material lacquer = strategy_material(MaterialType::phong, vec3(0.3f), vec3(0.6f));
+  lacquer.exponent = 10;
+  for (const Material& m : {gloss, lacquer}) {
+    const float z = m.type == MaterialType::ggx ? -0.5f : 0.5f;
+    Mesh mesh;
+    mesh.positions = {{-1, 0, z - 0.5f}, {-1, 0, z + 0.5f}, {1, 0, z + 0.5f}, {1, 0, z - 0.5f}};
+    mesh.normals.assign(4, glm::normalize(vec3(0.8f, 0.6f, 0.1f)));
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    s.mesh(std::move(mesh), s.material(m));
+  }
+  s.rectangle({2.4f, 1.6f, 0}, {0, 0, 1}, {-0.5f, 0.7f, 0}, s.diffuse(vec3(0), vec3(6)));
+  s.rectangle({-2, 1.5f, 0}, {0, 1.5f, 0}, {0, 0, 2}, s.diffuse(vec3(0.5f), vec3(0.5f)));
   s.constant_light(vec3(0.3f));
-  s.camera({0, 1.5f, 5}, {0, 0, 0}, 40);
+  s.camera({-1, 3, 0.4f}, {0, 0, 0}, 30);
   return s.document;
 }
 

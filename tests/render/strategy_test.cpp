@@ -95,6 +95,7 @@ TEST(StrategyStatistical, MirrorAndGlass) { expect_one_expectation(strategy_scen
 TEST(StrategyStatistical, InstancesTextureAndScreen) { expect_one_expectation(strategy_scenes()[4], 512); }
 TEST(StrategyStatistical, SkySunAndLamp) { expect_one_expectation(strategy_scenes()[5], 512); }
 TEST(StrategyStatistical, EnvironmentAndSpot) { expect_one_expectation(strategy_scenes()[6], 512); }
+TEST(StrategyStatistical, CoarseSmoothGloss) { expect_one_expectation(strategy_scenes()[7], 1024); }
 
 /// Everything with everything.
 void expect_all_combinations_agree(const NamedScene& scene) {
@@ -123,6 +124,7 @@ TEST(StrategyHeavy, MirrorAndGlass) { expect_all_combinations_agree(strategy_sce
 TEST(StrategyHeavy, InstancesTextureAndScreen) { expect_all_combinations_agree(strategy_scenes()[4]); }
 TEST(StrategyHeavy, SkySunAndLamp) { expect_all_combinations_agree(strategy_scenes()[5]); }
 TEST(StrategyHeavy, EnvironmentAndSpot) { expect_all_combinations_agree(strategy_scenes()[6]); }
+TEST(StrategyHeavy, CoarseSmoothGloss) { expect_all_combinations_agree(strategy_scenes()[7]); }
 
 TEST(StrategyStatistical, RouletteKeepsTheMeanOfUnlimitedPaths) {
   Document d = mirror_and_glass_scene();
