@@ -98,7 +98,7 @@ private:
   std::span<PathSample> results_;
   RayCounts counts_;
   std::vector<Path> paths_, next_;
-  /// Of their rays, parallel to them; in scenes with absorption alone. (In Path they cost all scenes 2 %.)
+  /// Of their rays, parallel to them; in scenes with absorption alone.
   std::vector<Interiors> interiors_, next_interiors_;
   std::vector<const Ray*> rays_; ///< of the paths, where they are traced together
   std::vector<Path*> missed_;
