@@ -2,8 +2,7 @@
 
 #include "core/error.h"
 #include "core/progress.h"
-#include "session/offline_render.h"
-#include "support/scenes.h"
+#include "session_testing.h"
 
 #include <gtest/gtest.h>
 
@@ -29,20 +28,6 @@ TEST(OfflineRender, StopsAtTheTime) {
   EXPECT_GE(r.render_seconds, 0.25);
 }
 
-/// Each sample takes its time: a camera in glass that no ray leaves, and paths as long as may be.
-Document slow_document(int size) {
-  test::SceneMaker s(size, size, 0);
-  Material glass;
-  glass.type = MaterialType::dielectric;
-  glass.ior = 2.5f;
-  const int material = s.material(glass);
-  s.document.scene.instances.push_back({"", CubeShape{}, mat4(1), {material}});
-  s.camera({0, 0, 0}, {0.3f, 0.2f, 1}, 60);
-  s.document.settings.path.rr = RussianRoulette::off;
-  s.document.settings.path.max_depth = 100000;
-  return s.document;
-}
-
 TEST(OfflineRender, StopsAtTheTimeWithinTheFirstPassAndFillsWhatIsMissing) {
   Document d = test::cornell_flush(2048, 2048, 0, true).document;
   d.settings.path.light_samples = 16;
@@ -61,8 +46,7 @@ TEST(OfflineRender, StopsAtTheTimeWithinTheFirstPassAndFillsWhatIsMissing) {
 }
 
 TEST(OfflineRender, IsInterruptedWithinABatchOfPaths) {
-  const Document d = slow_document(64);
-  Document limited = d;
+  Document limited = test::slow_document();
   limited.settings.stop.spp = 1000000;
   std::atomic<bool> stop{false};
   OfflineOptions options;

@@ -11,6 +11,7 @@ namespace {
 using test::headless;
 using test::kPatience;
 using test::shows;
+using test::slow_document;
 using test::small_cornell;
 
 TEST(SessionControl, APauseKeepsThePassesItHasAndResumesToTheSameBits) {
@@ -113,21 +114,6 @@ TEST(SessionControl, ARegionBeforeTheFirstDocumentWaitsForIt) {
   Document d = small_cornell(2);
   ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.latest()->spp, 2);
-}
-
-/// Samples that take long, whatever the film's size: the inside of glass that no ray leaves, without
-/// roulette.
-Document slow_document() {
-  test::SceneMaker s(96, 96, 1);
-  Material glass;
-  glass.type = MaterialType::dielectric;
-  glass.ior = 2.5f;
-  const int material = s.material(glass);
-  s.document.scene.instances.push_back({"", CubeShape{}, mat4(1), {material}});
-  s.camera({0, 0, 0}, {0.3f, 0.2f, 1}, 60);
-  s.document.settings.path.rr = RussianRoulette::off;
-  s.document.settings.path.max_depth = 1000000;
-  return s.document;
 }
 
 // Where a pass is not interrupted, each of these takes many minutes: the tests' time limit is what fails

@@ -17,6 +17,21 @@ inline Document small_cornell(int spp = 4, int width = 61, int height = 43) {
   return cornell_flush(width, height, spp, true).document;
 }
 
+/// Samples that take long, whatever the film's size: the inside of glass that no ray leaves, without
+/// roulette.
+inline Document slow_document() {
+  SceneMaker s(96, 96, 1);
+  Material glass;
+  glass.type = MaterialType::dielectric;
+  glass.ior = 2.5f;
+  const int material = s.material(glass);
+  s.document.scene.instances.push_back({"", CubeShape{}, mat4(1), {material}});
+  s.camera({0, 0, 0}, {0.3f, 0.2f, 1}, 60);
+  s.document.settings.path.rr = RussianRoulette::off;
+  s.document.settings.path.max_depth = 1000000;
+  return s.document;
+}
+
 inline std::vector<vec3> headless(const Document& document) {
   return render_document(document).film.image().pixels;
 }
