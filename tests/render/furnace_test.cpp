@@ -9,15 +9,6 @@ namespace {
 using namespace candela;
 using namespace candela::test;
 
-Material lossless(MaterialType type, float ior = 1.5f) {
-  Material m;
-  m.type = type;
-  m.diffuse = vec3(type == MaterialType::diffuse ? 1.0f : 0.0f);
-  m.specular = vec3(1);
-  m.ior = ior;
-  return m;
-}
-
 /// Every pixel is 1 to within 1e-3. The sampling that leaves no noise is taken: without it, this would be a
 /// test of patience.
 void expect_invisible(SceneMaker s) {

@@ -16,6 +16,17 @@ inline int sampler_seed(std::uint64_t salt = 0) {
   return static_cast<int>(hash_combine(fresh_seed(), salt) >> 33);
 }
 
+/// A material of the type that absorbs nothing.
+inline Material lossless(MaterialType type, float ior = 1.5f) {
+  Material m;
+  m.type = type;
+  m.diffuse = vec3(type == MaterialType::diffuse ? 1.0f : 0.0f);
+  m.specular = vec3(1);
+  m.ior = ior;
+  m.exponent = 20;
+  return m;
+}
+
 /// All of stop.spp, in one pass.
 inline Film render(const Document& document, const PassOptions& options = {}) {
   const FilmSettings& size = document.settings.film;

@@ -12,16 +12,6 @@
 namespace candela::test {
 namespace {
 
-Material lossless(MaterialType type, float ior = 1.5f) {
-  Material m;
-  m.type = type;
-  m.diffuse = vec3(type == MaterialType::diffuse ? 1.0f : 0.0f);
-  m.specular = vec3(1);
-  m.ior = ior;
-  m.exponent = 20;
-  return m;
-}
-
 /// A camera at the origin among bodies that lose no light: in most scenes it is inside of some.
 Document random_lossless_scene(std::uint64_t seed) {
   std::mt19937_64 random(seed);
