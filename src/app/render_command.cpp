@@ -49,7 +49,11 @@ int interrupted_status() {
 /// process.)
 class SignalGuard {
 public:
-  SignalGuard() : interrupt_(std::signal(SIGINT, on_signal)), terminate_(std::signal(SIGTERM, on_signal)) {}
+  SignalGuard() {
+    stop_requested = false; // of a render before
+    interrupt_ = std::signal(SIGINT, on_signal);
+    terminate_ = std::signal(SIGTERM, on_signal);
+  }
   ~SignalGuard() {
     std::signal(SIGINT, interrupt_);
     std::signal(SIGTERM, terminate_);
