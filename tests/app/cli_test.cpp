@@ -245,7 +245,8 @@ TEST_F(CliTest, InterruptedItSavesWhatItHas) {
             "1000000000", "-o", out.c_str(), "--quiet", static_cast<char*>(nullptr));
       _exit(127);
     }
-    while (!catches(child, signal)) std::this_thread::yield(); // it does while it renders
+    while (!catches(child, signal)) std::this_thread::yield();   // it does while it builds and renders
+    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // while it builds there is nothing to save
     kill(child, signal);
     int status = 0;
     waitpid(child, &status, 0);
