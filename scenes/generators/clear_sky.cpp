@@ -2,9 +2,10 @@
 //
 //   cmake --build --preset release --target scene_data
 
-#include "core/math.h"
-#include "io/image_file.h"
 #include "scene/clear_sky.h"
+
+#include "core/math.h"
+#include "io/images/image_file.h"
 
 #include <fmt/format.h>
 

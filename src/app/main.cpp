@@ -1,5 +1,5 @@
-#include "app/cli.h"
-#include "app/streams.h"
+#include "app/cli/cli.h"
+#include "app/platform/streams.h"
 
 int main(int argc, char** argv) {
   candela::prepare_streams();

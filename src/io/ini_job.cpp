@@ -1,6 +1,6 @@
 #include "io/ini_job.h"
 
-#include "io/text_file.h"
+#include "io/files/text_file.h"
 
 #include <fmt/format.h>
 

@@ -12,7 +12,7 @@
 //   directLightingOnly = false
 //   numDirectLightingSamples = 1
 
-#include "io/path_policy.h"
+#include "io/files/path_policy.h"
 #include "scene/document.h"
 
 #include <string>

@@ -1,12 +1,12 @@
 #include "io/picture_state.h"
 
 #include "core/hash.h"
-#include "io/apart.h"
-#include "io/candela_json.h"
-#include "io/file_bytes.h"
-#include "io/image_codec.h"
-#include "io/json_fields.h"
-#include "io/text_file.h"
+#include "io/candela/candela_json.h"
+#include "io/candela/json_fields.h"
+#include "io/files/apart.h"
+#include "io/files/file_bytes.h"
+#include "io/files/text_file.h"
+#include "io/images/image_codec.h"
 #include "scene/scene_files.h"
 
 #include <fmt/format.h>

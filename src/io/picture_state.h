@@ -12,7 +12,7 @@
 // outside of the tree is opened only while it has the recorded content, so that nobody's picture can make the
 // program read a file that its maker did not know.
 
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 #include "io/scene_reader.h"
 
 namespace candela {

@@ -1,8 +1,8 @@
 #include "io/scene_export.h"
 
-#include "io/atomic_file.h"
-#include "io/candela_json.h"
-#include "io/file_bytes.h"
+#include "io/candela/candela_json.h"
+#include "io/files/atomic_file.h"
+#include "io/files/file_bytes.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 #include "io/scene_reader.h"
 
-#include "io/apart.h"
-#include "io/cs123_reader.h"
+#include "io/cs123/cs123_reader.h"
+#include "io/files/apart.h"
+#include "io/files/text_file.h"
 #include "io/ini_job.h"
 #include "io/picture_state.h"
-#include "io/text_file.h"
 
 #include <fmt/format.h>
 

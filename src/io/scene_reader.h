@@ -1,8 +1,8 @@
 #pragma once
 // The front door to all scene formats.
 
-#include "io/candela_json.h"
-#include "io/warning_list.h"
+#include "io/candela/candela_json.h"
+#include "io/files/warning_list.h"
 #include "scene/document.h"
 
 #include <memory>
@@ -37,9 +37,9 @@ struct LoadedScene {
 
 /// Reads a scene by the ending of its name, in either case:
 ///
-/// - .json: Candela's own format (io/candela_json.h)
+/// - .json: Candela's own format (io/candela/candela_json.h)
 /// - .obj: the mesh alone, framed by the camera; if nothing in it shines, a constant light is added
-/// - .xml: CS123 (io/cs123_reader.h)
+/// - .xml: CS123 (io/cs123/cs123_reader.h)
 /// - .png, .exr: a picture that Candela saved, with the scene in it (io/picture_state.h)
 /// - .ini: a job of the path tracing assignment (io/ini_job.h), which names one of the others
 ///

@@ -4,7 +4,7 @@
 // The sky is that of A. J. Preetham, P. Shirley, B. Smits, "A Practical Analytic Model for Daylight",
 // SIGGRAPH 1999, appendix A.2: Perez's distribution of luminance and chromaticity for a turbidity.
 
-#include "scene/mesh.h"
+#include "imaging/image.h"
 
 namespace candela {
 

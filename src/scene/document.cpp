@@ -137,18 +137,6 @@ std::string camera_value_problem(const Camera& camera) {
   return view_problem(camera);
 }
 
-bool is_scalar_view(View view) {
-  switch (view) {
-  case View::depth:
-  case View::bvh_cost:
-  case View::light_share:
-  case View::variance:
-  case View::samples:
-  case View::nonfinite: return true;
-  default: return false;
-  }
-}
-
 Invalidates compare_documents(const Document& before, const Document& after) {
   Invalidates worst = Invalidates::nothing;
   for (const auto& row : settings_table())

@@ -3,6 +3,8 @@
 // The settings table at the bottom is the only list of settings: the command line, the panels, scene files,
 // the README and validation all iterate it.
 
+#include "imaging/display_settings.h"
+#include "imaging/view.h"
 #include "sampling/direction_type.h"
 #include "sampling/filter_type.h"
 #include "sampling/sampler_type.h"
@@ -16,33 +18,7 @@ enum class LightChoiceBy : int { power, contribution };
 enum class MisHeuristic : int { balance, power };
 enum class RussianRoulette : int { off, throughput, fixed };
 enum class PathComponent : int { all, emitted, direct, indirect };
-/// What a pixel shows. The first five rows of names are properties of the first surface; the rest is what the
-/// render knows of itself.
-enum class View : int {
-  radiance,
-  albedo,
-  normal,           ///< shading normal
-  geometric_normal, ///< by the winding of triangles
-  depth,
-  uv,
-  material,
-  bvh_cost,    ///< nodes and primitives that the camera ray tests
-  depth_share, ///< of the radiance, by path length
-  light_share, ///< of the direct light, by the strategy that found it
-  variance,
-  samples,
-  nonfinite
-};
-/// The view whose samples a film must hold to show this one: switching between views of the same samples
-/// restarts nothing.
-constexpr View accumulated_view(View view) {
-  return view == View::variance || view == View::samples || view == View::nonfinite ? View::radiance : view;
-}
-
 enum class BrdfOverride : int { none, diffuse, phong, ggx, mirror, dielectric };
-enum class ToneMap : int { reinhard, reinhard_simple, filmic, aces, srgb };
-enum class FalseColor : int { automatic, off, viridis, magma };
-
 struct FilmSettings {
   int width = 512;
   int height = 512;
@@ -111,21 +87,6 @@ struct StopSettings {
   bool operator==(const StopSettings&) const = default;
 };
 
-/// How the picture is shown and written to 8-bit files; never changes the accumulation.
-struct DisplaySettings {
-  ToneMap tone_map = ToneMap::srgb;
-  float exposure = 0;         ///< stops (powers of two)
-  bool auto_exposure = false; ///< the exposure is relative to one found from the picture
-  float white_point = 4;      ///< luminance that extended Reinhard maps to white
-  FalseColor false_color = FalseColor::automatic;
-  float false_color_min = 0; ///< value at the start of the colours, in the view's unit
-  float false_color_max = 0; ///< value at their end; where it is not above the start, both are found
-                             ///< from the picture
-  bool denoise = false;
-  bool dither = true;
-  bool operator==(const DisplaySettings&) const = default;
-};
-
 struct RenderSettings {
   FilmSettings film;
   SamplerSettings sampler;
@@ -145,9 +106,6 @@ struct Document {
   RenderSettings settings;
   bool operator==(const Document&) const = default;
 };
-
-/// Whether a pixel of the view is one number, in three equal channels, rather than a colour.
-bool is_scalar_view(View view);
 
 /// The settings table (the camera's values among them).
 std::span<const Field<Document>> settings_table();

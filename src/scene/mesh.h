@@ -27,37 +27,4 @@ struct Mesh {
   bool operator==(const Mesh&) const = default; ///< by value; compare pointers first where that is enough
 };
 
-/// An 8-bit sRGB picture that colours a surface; row 0 is the top, three bytes a texel.
-struct Texture {
-  std::string name;
-  std::string source;
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> srgb;
-  bool operator==(const Texture&) const = default;
-};
-
-/// A float picture: linear Rec. 709, row 0 is the top.
-struct Image {
-  int width = 0;
-  int height = 0;
-  std::vector<vec3> pixels;
-
-  const vec3& at(int x, int y) const {
-    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(x)];
-  }
-  vec3& at(int x, int y) { return const_cast<vec3&>(static_cast<const Image&>(*this).at(x, y)); }
-  bool operator==(const Image&) const = default;
-};
-
-/// The radiance that comes from all around, as a picture; six faces of a cube are stacked in the order of
-/// their files. Pixels are finite and not negative.
-struct Panorama {
-  std::string name;
-  std::vector<std::string> sources; ///< the file, or those of the six faces; may be empty
-  Image image;
-  bool operator==(const Panorama&) const = default;
-};
-
 } // namespace candela

@@ -4,7 +4,9 @@
 
 #include "core/bounds.h"
 #include "core/fields.h"
+#include "imaging/texture.h"
 #include "scene/mesh.h"
+#include "scene/panorama.h"
 
 #include <memory>
 #include <optional>
@@ -72,7 +74,7 @@ void change_type(Material& material, MaterialType type);
 
 enum class LightType : int { point, directional, constant, spot, environment };
 
-/// Where a panorama has which direction; see render/environment_map.h for the axes.
+/// Where a panorama has which direction; see render/lights/environment_map.h for the axes.
 enum class EnvironmentMapping : int { latlong, angular, cross, faces };
 
 /// A light without a shape; shapes shine by their material's emission.

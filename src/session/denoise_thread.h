@@ -1,7 +1,7 @@
 #pragma once
 // The third thread of a session: it denoises snapshots of the accumulation while that goes on.
 
-#include "render/denoise_film.h"
+#include "render/denoise/denoise_film.h"
 
 #include <condition_variable>
 #include <functional>

@@ -2,7 +2,7 @@
 // A thread that builds geometry beside the renderer: what was built fast for a hand that moves something, it
 // builds well, and what a hand is about to move, it makes ready for that.
 
-#include "render/geometry.h"
+#include "render/world/geometry.h"
 
 #include <chrono>
 #include <condition_variable>

@@ -1,7 +1,7 @@
 #include "session/offline_render.h"
 
 #include "core/error.h"
-#include "render/film_view.h"
+#include "render/film/film_view.h"
 
 #include <chrono>
 

@@ -2,7 +2,7 @@
 // A render from start to finish, as the command line does it: the same passes as the window's, in larger
 // portions.
 
-#include "render/render_pass.h"
+#include "render/film/render_pass.h"
 
 #include <functional>
 

@@ -1,7 +1,7 @@
 // The render thread: takes Documents, restarts what they change, adds samples.
 
 #include "core/error.h"
-#include "render/film_view.h"
+#include "render/film/film_view.h"
 #include "session/session_state.h"
 
 #include <new>

@@ -3,11 +3,11 @@
 // newest; no call of it ever waits for rendering.
 
 #include "core/progress.h"
-#include "render/display_transform.h"
-#include "render/frame.h"
-#include "render/picking.h"
-#include "render/render_pass.h"
-#include "render/render_scene.h"
+#include "imaging/display_transform.h"
+#include "render/camera/picking.h"
+#include "render/film/frame.h"
+#include "render/film/render_pass.h"
+#include "render/world/render_scene.h"
 #include "session/denoise_thread.h"
 #include "session/render_turns.h"
 

@@ -3,7 +3,7 @@
 // looks at accumulates alone, and once it is given up the rest catches up, so that every pixel gets each
 // sample index once and the image ends as the headless one, bit for bit.
 
-#include "render/render_pass.h"
+#include "render/film/render_pass.h"
 
 #include <vector>
 

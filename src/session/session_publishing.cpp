@@ -1,6 +1,6 @@
 // From the film to the screen: snapshots for the denoiser and the presenter, and the pictures that they make.
 
-#include "render/film_view.h"
+#include "render/film/film_view.h"
 #include "session/session_state.h"
 
 namespace candela {

@@ -3,7 +3,7 @@
 
 #include "core/progress.h"
 #include "core/recycler.h"
-#include "render/render_pass.h"
+#include "render/film/render_pass.h"
 #include "session/denoise_thread.h"
 #include "session/geometry_thread.h"
 #include "session/render_session.h"

@@ -1,9 +1,9 @@
 #pragma once
 // The Viewer without a window: OSMesa draws into memory, and a hand that moves, presses, types and looks.
 
-#include "app/offscreen_context.h"
-#include "app/viewer.h"
-#include "io/image_file.h"
+#include "app/platform/offscreen_context.h"
+#include "app/viewer/viewer.h"
+#include "io/images/image_file.h"
 #include "support/scratch_folder.h"
 #include "support/screenshots.h"
 

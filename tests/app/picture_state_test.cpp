@@ -1,7 +1,7 @@
 // Pictures that carry their scene are made again, bit for bit.
 
-#include "app/picture_saver.h"
-#include "io/image_file.h"
+#include "app/viewer/picture_saver.h"
+#include "io/images/image_file.h"
 #include "io/scene_reader.h"
 #include "session/offline_render.h"
 #include "support/scratch_folder.h"

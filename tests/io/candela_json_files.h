@@ -1,7 +1,7 @@
 #pragma once
 // A scene in Candela JSON, and what reading it says.
 
-#include "scene_files.h"
+#include "io/scene_files.h"
 
 namespace candela::test {
 

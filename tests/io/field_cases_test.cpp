@@ -1,7 +1,7 @@
 // Inputs after what people report of programs of this kind.
 
-#include "io/texture_reader.h"
-#include "scene_files.h"
+#include "io/images/texture_reader.h"
+#include "io/scene_files.h"
 
 namespace candela {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene_files.h"
+#include "io/scene_files.h"
 
 namespace candela {
 namespace {

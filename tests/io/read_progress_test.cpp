@@ -1,10 +1,10 @@
 // How far reading is, and that it ends when it is told to, in every format.
 
-#include "io/image_codec.h"
-#include "io/panorama_reader.h"
+#include "io/images/image_codec.h"
+#include "io/images/panorama_reader.h"
+#include "io/images/texture_reader.h"
 #include "io/picture_state.h"
-#include "io/texture_reader.h"
-#include "scene_files.h"
+#include "io/scene_files.h"
 
 #include <fmt/format.h>
 

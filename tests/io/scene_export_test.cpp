@@ -1,7 +1,7 @@
 // Converted scenes stand on their own and read back the same.
 
 #include "io/scene_export.h"
-#include "scene_files.h"
+#include "io/scene_files.h"
 
 namespace candela {
 namespace {

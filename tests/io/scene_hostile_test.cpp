@@ -1,7 +1,7 @@
 // Damaged scenes of every format: each is refused with a located message, or read as something valid; none
 // crashes. Run under the sanitizers too.
 
-#include "scene_files.h"
+#include "io/scene_files.h"
 #include "support/seed.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // The one list of a scene's files: all that decide what it is, in every format.
 
-#include "io/image_file.h"
-#include "io/path_policy.h"
+#include "io/files/path_policy.h"
+#include "io/images/image_file.h"
 #include "io/picture_state.h"
 #include "scene/scene_files.h"
 #include "support/scratch_folder.h"

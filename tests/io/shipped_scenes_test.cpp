@@ -1,7 +1,7 @@
 // The scenes in scenes/: each reads without a word and says what its description promises.
 
 #include "core/color.h"
-#include "scene_files.h"
+#include "io/scene_files.h"
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 // stopped, and what becomes of its errors.
 
 #include "core/error.h"
-#include "render/denoise_film.h"
-#include "render/oidn_denoiser.h"
-#include "render/render_pass.h"
+#include "render/denoise/denoise_film.h"
+#include "render/denoise/oidn_denoiser.h"
+#include "render/film/render_pass.h"
 #include "session/render_session.h"
 #include "support/scenes.h"
 

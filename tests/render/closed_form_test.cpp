@@ -1,7 +1,7 @@
 // Images that are known exactly.
 
-#include "closed_forms.h"
-#include "render_testing.h"
+#include "render/closed_forms.h"
+#include "render/render_testing.h"
 
 namespace {
 

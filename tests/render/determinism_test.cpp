@@ -1,6 +1,6 @@
 // The same bits whatever the machine does: threads, portions, order, crops and replays.
 
-#include "strategy_scenes.h"
+#include "render/strategy_scenes.h"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Light that no surface may change: in a furnace of radiance 1 what absorbs nothing is invisible, and a
 // slab's absorption and reflections have closed forms.
 
-#include "closed_forms.h"
-#include "render_testing.h"
+#include "render/closed_forms.h"
+#include "render/render_testing.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Direct light on a diffuse plane against closed forms: radiance = albedo / pi * irradiance.
 
-#include "closed_forms.h"
-#include "render_testing.h"
+#include "render/closed_forms.h"
+#include "render/render_testing.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a render says about the expectation of its image: means of its quadrants with their variances.
 
-#include "render_testing.h"
+#include "render/render_testing.h"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 // Renders for tests, and what their samples say about an expected radiance.
 
 #include "core/hash.h"
-#include "render/render_pass.h"
+#include "render/film/render_pass.h"
 #include "support/scenes.h"
 #include "support/seed.h"
 #include "support/statistics.h"

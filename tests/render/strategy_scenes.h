@@ -2,7 +2,7 @@
 // Small scenes in which every strategy has something to do. Lights and lobes are wide enough that every
 // strategy finds them often, for a test that waits for rare events finds nothing out.
 
-#include "render_testing.h"
+#include "render/render_testing.h"
 
 namespace candela::test {
 

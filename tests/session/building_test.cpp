@@ -1,6 +1,6 @@
 // Geometry that takes long to build: how far it is, and that nobody waits for what is out of date.
 
-#include "session_testing.h"
+#include "session/session_testing.h"
 #include "support/build_gate.h"
 
 #include <chrono>

@@ -1,6 +1,6 @@
 // A session that denoises: beside the render, never instead of it.
 
-#include "session_testing.h"
+#include "session/session_testing.h"
 
 #include <thread>
 

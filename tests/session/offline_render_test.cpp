@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/progress.h"
-#include "session_testing.h"
+#include "session/session_testing.h"
 
 #include <gtest/gtest.h>
 

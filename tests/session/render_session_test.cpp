@@ -1,7 +1,7 @@
 // The interactive engine: what restarts, what does not, and that its picture is the headless one. Waits are
 // for events, with limits only against hanging for ever.
 
-#include "session_testing.h"
+#include "session/session_testing.h"
 
 #include <chrono>
 #include <thread>

@@ -1,6 +1,6 @@
 // Pause, step, region, build quality: what the user holds back or asks for, and that no sample is lost by it.
 
-#include "session_testing.h"
+#include "session/session_testing.h"
 
 #include <chrono>
 #include <thread>

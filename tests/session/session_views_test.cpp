@@ -1,7 +1,7 @@
 // Views of the samples that a session has, and its stops by noise and by convergence.
 
-#include "render/film_view.h"
-#include "session_testing.h"
+#include "render/film/film_view.h"
+#include "session/session_testing.h"
 
 namespace candela {
 namespace {

@@ -1,7 +1,7 @@
 #include "versus_cycles/cycles.h"
 
 #include "core/error.h"
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

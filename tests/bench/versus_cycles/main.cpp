@@ -12,8 +12,8 @@
 // what blender said. Exits with 1 where the means differ by more than the noise and the tolerances allow.
 
 #include "core/error.h"
-#include "io/image_file.h"
-#include "render/display_transform.h"
+#include "imaging/display_transform.h"
+#include "io/images/image_file.h"
 #include "session/offline_render.h"
 #include "support/scratch_folder.h"
 #include "versus_cycles/cycles.h"

@@ -1,7 +1,7 @@
 #pragma once
 // What two renderers' pictures of a scene say about their noise, and whether their means agree.
 
-#include "scene/mesh.h"
+#include "imaging/image.h"
 
 #include <array>
 #include <string>

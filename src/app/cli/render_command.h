@@ -1,0 +1,28 @@
+#pragma once
+
+#include "app/console/scene_options.h"
+
+#include <optional>
+
+namespace candela {
+
+struct RenderOptions {
+  SceneOptions scene;
+  std::vector<std::string> outputs; ///< empty: what the job names
+  std::optional<int> spp;
+  std::optional<float> time;       ///< seconds
+  std::optional<float> noise;      ///< relative error
+  std::vector<std::string> aovs;   ///< names of further pictures to write
+  std::optional<std::string> size; ///< "WxH"
+  std::optional<int> seed;
+  std::optional<std::string> crop; ///< "X,Y,W,H"
+  std::optional<std::string> reference;
+  std::optional<std::string> stats;
+  bool quiet = false;
+  bool no_state = false; ///< do not keep the scene in the pictures
+};
+
+/// Renders to files. Interrupted (SIGINT, SIGTERM) it writes what it has and returns 130 or 143.
+int run_render(const RenderOptions& options);
+
+} // namespace candela

@@ -1,0 +1,140 @@
+#pragma once
+// Two Documents rendered at once, and what can be said about their difference. The Viewer goes on with the
+// one that is edited; this holds the other, and changes places with it when the other is to be edited. All
+// numbers are worked out on a thread of their own.
+
+#include "app/compare/compare_analysis.h"
+#include "app/platform/task_thread.h"
+#include "app/tools/edit_history.h"
+#include "scene/document.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <tuple>
+
+namespace candela {
+
+class CompareMode {
+public:
+  struct Options {
+    int threads = 0;
+    std::function<void()> wake;
+    std::filesystem::path folder; ///< of exported figures
+  };
+  /// What of the Viewer changes places when the other side is edited.
+  struct Edited {
+    Document& document;
+    std::unique_ptr<RenderSession>& session;
+    EditHistory& history;
+  };
+
+  explicit CompareMode(Options options);
+
+  /// The edited Document becomes A; B begins as its copy.
+  void begin(CompareState& state, const Edited& edited, EditState now);
+  /// The edited side stays, the other one goes.
+  void end(CompareState& state, const Edited& edited);
+  /// The panels change the other side from now on.
+  void exchange(CompareState& state, const Edited& edited);
+  /// The other side becomes a copy of this document.
+  void replace_other(const Document& document);
+  const Document& other_document() const { return other_.document; }
+  const RenderSession* other_session() const { return other_.session.get(); }
+
+  /// What both share (film size, display, when to stop, perhaps the camera) goes over to the other side.
+  void follow(const CompareState& state, const Document& edited);
+  void pause(bool paused);
+  void step();
+  void set_region(const CropWindow& region);
+
+  /// To be called once a frame: takes what has been worked out, asks for more. Returns what is to be told to
+  /// the user; empty if nothing.
+  std::string update(CompareState& state, const Edited& edited);
+  bool wants_redraw() const;
+  bool busy() const;
+
+  // The reference. It is left as soon as another view or another size of film is rendered.
+  void freeze_reference(const CompareState& state, const Edited& edited, int side);
+  void render_reference(const CompareState& state, const Edited& edited);
+  void load_reference(const std::string& path);
+  void clear_reference();
+
+  /// Null while there is none.
+  std::shared_ptr<const Image> reference_image() const { return reference_ ? reference_->image : nullptr; }
+
+  /// Newest false-colour difference; null before the first.
+  const std::shared_ptr<const DisplayImage>& difference() const { return difference_; }
+  /// Writes a figure of both pictures, their difference and the plot, under a new name, on `writer`.
+  void export_figure(const CompareState& state, const Edited& edited, TaskThread& writer);
+
+private:
+  struct Reference {
+    std::shared_ptr<const Image> image;
+    std::string name;
+    std::optional<Camera> camera; ///< of what it shows; none: a file's, that nobody knows
+  };
+  struct Measured {
+    std::uint64_t generation = 0; ///< of the frame that the numbers are of
+    std::optional<double> rel_mse, noise;
+  };
+  struct Other {
+    Document document;
+    std::unique_ptr<RenderSession> session;
+    EditHistory history;
+  };
+
+  const RenderSession& session(const CompareState& state, const Edited& edited, int side) const {
+    return side == state.edited ? *edited.session : *other_.session;
+  }
+  const Document& document(const CompareState& state, const Edited& edited, int side) const {
+    return side == state.edited ? edited.document : other_.document;
+  }
+  void dispose(std::unique_ptr<RenderSession> session);
+  /// Why the reference does not fit what is rendered; empty if it does.
+  std::string reference_problem(const Document& document) const;
+  void watch_reference(CompareState& state, const Edited& edited);
+  void analyse(const CompareState& state, const Edited& edited);
+  void take(const CompareAnalysis& analysis);
+  void describe(CompareState& state, const Edited& edited) const;
+
+  Options options_;
+  std::shared_ptr<RenderTurns> turns_;
+  Other other_;
+  std::unique_ptr<RenderSession> reference_session_; ///< while it is rendered
+  Reference rendering_;                              ///< what that will be
+  std::optional<Reference> reference_;
+  bool paused_ = false;
+  std::array<ErrorTrack, 2> rel_mse_tracks_, noise_tracks_;
+  std::array<Measured, 2> measured_; ///< last
+  std::shared_ptr<const DisplayImage> difference_;
+  std::array<std::shared_ptr<const Frame>, 2> analysed_; ///< frames of the last analysis
+  int analyses_ = 0;                                     ///< under way
+  /// What an analysis is asked for beside its frames: a change of it is worth another one.
+  using Key = std::tuple<CompareLayout, DifferenceOf, bool, float, std::shared_ptr<const Image>>;
+  Key key_of(const CompareState& state) const {
+    return {state.layout, state.difference, state.with_sign, state.range,
+            state.has_reference ? reference_->image : nullptr};
+  }
+  Key key_;
+  double next_analysis_ = 0;
+  std::string message_;
+
+  TaskThread analyst_; // last: its completions use what stands above
+};
+
+/// The figure of a comparison, from what is on the screen. Pictures may be null.
+struct ComparisonFigure {
+  std::array<std::shared_ptr<const DisplayImage>, 2> pictures;
+  std::shared_ptr<const Image> reference;
+  std::array<std::string, 2> labels;
+  DifferenceOf difference = DifferenceOf::a_and_b;
+  bool with_sign = false;
+  float range = 0.1f;
+  Plot plot; ///< drawn if it has points
+};
+
+/// Draws it and writes it to a new file of the folder, whose path it returns.
+std::string write_comparison_figure(const ComparisonFigure& source, const std::string& folder);
+
+} // namespace candela

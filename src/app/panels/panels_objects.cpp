@@ -1,0 +1,146 @@
+// The panel of what is placed in the scene.
+
+#include "app/panels/panels.h"
+#include "app/tools/transform_parts.h"
+#include "app/ui/item_list.h"
+
+namespace candela {
+
+namespace {
+
+constexpr auto kInf = std::numeric_limits<double>::infinity();
+
+const FieldInfo kPosition{"position",
+                          FieldType::point,
+                          -kInf,
+                          kInf,
+                          "scene units",
+                          "Where the object's own origin is, in the world",
+                          Invalidates::scene};
+const FieldInfo kRotation{"rotation",
+                          FieldType::point,
+                          -kInf,
+                          kInf,
+                          "degrees",
+                          "Turns about the world's x, then y, then z axis, and the object's middle",
+                          Invalidates::scene};
+const FieldInfo kScale{"scale",
+                       FieldType::point,
+                       -1e6,
+                       1e6,
+                       "",
+                       "Factors along the object's own axes, from its middle",
+                       Invalidates::scene};
+
+std::string shape_text(const Shape& shape) {
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
+    return fmt::format("{}, {} triangles", shape_name(shape), (*mesh)->triangles.size());
+  return std::string(shape_name(shape));
+}
+
+/// The values that a shape of this kind has. `home`: as it was loaded; null where that was another kind.
+void shape_values(Ui& ui, ViewerState& state, Shape& shape, Shape* home) {
+  for (const auto& row : shape_fields(shape)) {
+    FieldInfo limits = shape_limits(shape, row);
+    FieldContext context;
+    if (home != nullptr) context.initial = row.address(*home);
+    if (row.type ==
+        FieldType::real) { // a length has no natural end that a slider could have: 100 pixels double it
+      limits.logarithmic = false;
+      context.drag_speed = 0.01f * *static_cast<const float*>(row.address(shape));
+    }
+    state.edited |= ui.field(fmt::format("object.{}", row.key), limits, row.address(shape), context);
+  }
+}
+
+/// The angles as they were typed: those of the matrix are only one choice of many.
+TransformParts shown_parts(ViewerState& state, const mat4& matrix) {
+  if (state.typed_transform && transform_of(*state.typed_transform) == matrix) return *state.typed_transform;
+  state.typed_transform.reset();
+  return transform_parts(matrix);
+}
+
+void transform_fields(Ui& ui, ViewerState& state, Instance& instance, const Instance* home) {
+  TransformParts parts = shown_parts(state, instance.world_from_object);
+  TransformParts initial = home != nullptr ? transform_parts(home->world_from_object) : TransformParts{};
+  FieldContext context;
+  context.drag_speed = 0.005f * state.natural_speed;
+  context.initial = &initial.position;
+  if (ui.field("object.position", kPosition, &parts.position, context)) {
+    instance.world_from_object[3] = vec4(parts.position, 1);
+    state.edited = true;
+    if (state.typed_transform) state.typed_transform->position = parts.position;
+  }
+  if (has_shear(instance.world_from_object)) {
+    ImGui::TextDisabled("It is sheared: rotation and scale cannot be typed.");
+    return;
+  }
+  bool changed = false;
+  context.drag_speed = 0.5f;
+  context.initial = &initial.rotation;
+  changed |= ui.field("object.rotation", kRotation, &parts.rotation, context);
+  context.drag_speed = 0.01f;
+  context.initial = &initial.scale;
+  changed |= ui.field("object.scale", kScale, &parts.scale, context);
+  if (!changed) return;
+  for (int i = 0; i < 3; ++i) // a flat object has no inverse
+    if (std::abs(parts.scale[i]) < 1e-6f) parts.scale[i] = 1e-6f;
+  parts = about_middle(instance.world_from_object, parts, state.selection_middle);
+  instance.world_from_object = transform_of(parts);
+  state.typed_transform = parts;
+  state.edited = true;
+}
+
+void material_choices(Ui& ui, ViewerState& state, Instance& instance) {
+  std::vector<std::string> names;
+  const auto& materials = state.document.scene.materials;
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    names.push_back(name_or_number(materials[i].name, "Material", i));
+  const std::vector<std::string_view> choices(names.begin(), names.end());
+  const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape);
+  for (std::size_t slot = 0; slot < instance.materials.size(); ++slot) {
+    const bool single = instance.materials.size() == 1;
+    const std::string label = single ? "material" : name_or_number((*mesh)->slot_names[slot], "slot", slot);
+    if (!ui.choice(fmt::format("object.material.{}", slot).c_str(), label.c_str(), instance.materials[slot],
+                   choices, "What the object is made of.\nRebuilds the geometry, then restarts the image."))
+      continue;
+    state.edited = true;
+    state.selected_material = instance.materials[slot];
+  }
+}
+
+} // namespace
+
+void objects_panel(Ui& ui, ViewerState& state) {
+  if (!ui.section("panel.objects", "Objects", false)) return;
+  auto& instances = state.document.scene.instances;
+  if (instances.empty()) {
+    ImGui::TextDisabled("The scene has none.");
+    return;
+  }
+  const bool selected = state.selection.kind == Selection::Kind::object;
+  const int chosen = selected ? state.selection.index : -1;
+  item_list(ui, "list.objects", instances.size(), state.reveal_selection ? chosen : -1, [&](std::size_t i) {
+    if (ui.item(fmt::format("objects/{}", i), name_or_number(instances[i].name, "Object", i).c_str(),
+                static_cast<int>(i) == chosen))
+      state.select_requested = Selection{Selection::Kind::object, static_cast<int>(i)};
+  });
+  if (!selected) {
+    ImGui::TextDisabled("Click an object here or in the picture.");
+    return;
+  }
+  const auto index = static_cast<std::size_t>(chosen);
+  Instance& instance = instances[index];
+  auto& homes = state.home.scene.instances;
+  Instance* home = homes.size() == instances.size() ? &homes[index] : nullptr;
+  const bool same_kind = home != nullptr && home->shape.index() == instance.shape.index();
+  ImGui::PushID(chosen);
+  ui.readout("shape", shape_text(instance.shape));
+  ui.record(fmt::format("object.shape/{}", shape_name(instance.shape)));
+  shape_values(ui, state, instance.shape, same_kind ? &home->shape : nullptr);
+  transform_fields(ui, state, instance, home);
+  material_choices(ui, state, instance);
+  ImGui::PopID();
+}
+
+} // namespace candela

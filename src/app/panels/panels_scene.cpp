@@ -1,0 +1,175 @@
+// The panels of what is in the scene, and of which scene it is.
+
+#include "app/panels/panels.h"
+#include "app/ui/item_list.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace candela {
+
+namespace {
+
+/// The material as it was loaded, if the list still is the scene's.
+template <class T>
+void* initial_of(const Field<T>& row, std::vector<T>& home, std::size_t index) {
+  return index < home.size() ? row.address(home[index]) : nullptr;
+}
+
+void light_fields_of(Ui& ui, ViewerState& state, std::size_t index) {
+  LightDesc& light = state.document.scene.lights[index];
+  for (const auto& row : light_fields()) {
+    if (!light_uses(light.type, row.key)) continue;
+    FieldContext context;
+    context.initial = initial_of(row, state.home.scene.lights, index);
+    context.drag_speed = 0.005f * state.natural_speed;
+    state.edited |= ui.field(fmt::format("light.{}", row.key), row, row.address(light), context);
+  }
+}
+
+void panorama_of(Ui& ui, ViewerState& state, const LightDesc& light) {
+  ui.readout("panorama", light.panorama ? light.panorama->name : "none: the same from everywhere",
+             "The picture that the light comes from");
+  const float button = 64 * ui.scale();
+  const std::string before = state.panorama_input;
+  const bool entered = ui.text("light.file", "Path of a panorama, or drop it here", state.panorama_input,
+                               -button - ImGui::GetStyle().ItemSpacing.x);
+  if (state.panorama_input != before) state.settle(ErrorCause::open);
+  ImGui::SameLine();
+  const bool pressed =
+      ui.button("light.open", "Open", "Lights the scene with this picture (.exr, .hdr …)", button);
+  if ((entered || pressed) && !state.panorama_input.empty()) state.open_paths = {state.panorama_input};
+}
+
+void emission_fields_of(Ui& ui, ViewerState& state, std::size_t index) {
+  Material& material = state.document.scene.materials[index];
+  for (const auto& row : material_fields()) {
+    if (row.key != "emission" && row.key != "two_sided_emission") continue;
+    FieldContext context;
+    context.initial = initial_of(row, state.home.scene.materials, index);
+    state.edited |= ui.field(fmt::format("emitter.{}", row.key), row, row.address(material), context);
+  }
+}
+
+} // namespace
+
+void materials_panel(Ui& ui, ViewerState& state) {
+  if (!ui.section("panel.materials", "Materials", false)) return;
+  auto& materials = state.document.scene.materials;
+  if (materials.empty()) {
+    ImGui::TextDisabled("The scene has none.");
+    return;
+  }
+  state.selected_material = std::clamp(state.selected_material, 0, static_cast<int>(materials.size()) - 1);
+  item_list(ui, "list.materials", materials.size(), state.reveal_selection ? state.selected_material : -1,
+            [&](std::size_t i) {
+              if (ui.item(fmt::format("materials/{}", i),
+                          name_or_number(materials[i].name, "Material", i).c_str(),
+                          static_cast<int>(i) == state.selected_material))
+                state.selected_material = static_cast<int>(i);
+            });
+  const auto index = static_cast<std::size_t>(state.selected_material);
+  Material& material = materials[index];
+  ImGui::PushID(state.selected_material); // a half-typed value belongs to one material
+  for (const auto& row : material_fields()) {
+    if (!material_uses(material.type, row.key)) continue;
+    FieldContext context;
+    context.initial = initial_of(row, state.home.scene.materials, index);
+    const MaterialType type = material.type;
+    state.edited |= ui.field(fmt::format("material.{}", row.key), row, row.address(material), context);
+    if (material.type != type) change_type(material, std::exchange(material.type, type));
+  }
+  ImGui::PopID();
+  if (material.diffuse_texture >= 0 &&
+      static_cast<std::size_t>(material.diffuse_texture) < state.document.scene.textures.size())
+    ui.readout("texture",
+               state.document.scene.textures[static_cast<std::size_t>(material.diffuse_texture)]->name,
+               "A picture that multiplies the diffuse colour");
+}
+
+void lights_panel(Ui& ui, ViewerState& state) {
+  if (!ui.section("panel.lights", "Lights", false)) return;
+  const auto& lights = state.document.scene.lights;
+  const std::vector<std::size_t> shining = shining_materials(state.document.scene, state.home.scene);
+  const std::size_t count = lights.size() + shining.size();
+  if (count == 0) {
+    ImGui::TextDisabled("The scene has none.");
+    return;
+  }
+  state.selected_light = std::clamp(state.selected_light, 0, static_cast<int>(count) - 1);
+  item_list(ui, "list.lights", count, state.reveal_selection ? state.selected_light : -1, [&](std::size_t i) {
+    const bool is_light = i < lights.size();
+    const std::size_t index = is_light ? i : shining[i - lights.size()];
+    const std::string name = is_light ? fmt::format("lights/{}", index) : fmt::format("emitters/{}", index);
+    const std::string label =
+        is_light ? name_or_number(lights[index].name, "Light", index)
+                 : fmt::format("{} (surface)",
+                               name_or_number(state.document.scene.materials[index].name, "Material", index));
+    if (!ui.item(name, label.c_str(), static_cast<int>(i) == state.selected_light)) return;
+    state.selected_light = static_cast<int>(i);
+    if (is_light) state.select_requested = Selection{Selection::Kind::light, static_cast<int>(index)};
+  });
+  const auto selected = static_cast<std::size_t>(state.selected_light);
+  ImGui::PushID(state.selected_light);
+  if (selected < lights.size()) {
+    light_fields_of(ui, state, selected);
+    if (lights[selected].type == LightType::environment) panorama_of(ui, state, lights[selected]);
+  } else {
+    emission_fields_of(ui, state, shining[selected - lights.size()]);
+  }
+  ImGui::PopID();
+}
+
+void scenes_panel(Ui& ui, ViewerState& state) {
+  if (!ui.section("panel.scenes", "Scenes", false)) return;
+  item_list(ui, "list.scenes", state.scenes.size(), -1, [&](std::size_t i) {
+    const std::string path = state.scenes[i].string();
+    if (ui.item(fmt::format("scenes/{}", i), state.scenes[i].stem().string().c_str(),
+                path == state.scene_path))
+      state.open_paths = {path};
+    ui.tooltip(path);
+  });
+  const float button = 64 * ui.scale();
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const std::string before = state.path_input;
+  const bool entered =
+      ui.text("scene.path", "Path of a scene, or drop it here", state.path_input, -button - gap);
+  if (state.path_input != before) state.settle(ErrorCause::open);
+  ImGui::SameLine();
+  const bool pressed = ui.button("scene.open", "Open", "Reads the scene beside the running one", button);
+  if ((entered || pressed) && !state.path_input.empty()) state.open_paths = {state.path_input};
+  if (ui.button("scene.save", "Save", "Writes the scene as JSON (Ctrl+S)", button))
+    state.save_scene_requested = true;
+  ImGui::SameLine();
+  if (ui.button("scene.save_as", "Save as", "Writes it under another name (Ctrl+Shift+S)", 1.2f * button))
+    state.save_scene_requested = state.save_as_requested = true;
+  // What the scene's author says of it; a file may hold more than anybody wants to read here.
+  constexpr std::size_t kMostText = 2000;
+  const std::string text = state.document.scene.description.substr(0, kMostText);
+  if (!text.empty()) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextUnformatted(text.data(), text.data() + text.size());
+    ImGui::PopTextWrapPos();
+    ui.record("scene.description");
+  }
+  if (!state.recent.empty()) {
+    ImGui::TextDisabled("Recent");
+    item_list(ui, "list.recent", state.recent.size(), -1, [&](std::size_t i) {
+      const std::string& path = state.recent[i];
+      if (ui.item(fmt::format("recent/{}", i), std::filesystem::path(path).filename().string().c_str(),
+                  path == state.scene_path))
+        state.open_paths = {path};
+      ui.tooltip(path);
+    });
+  }
+  for (const std::string& warning : state.warnings) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextDisabled("%s", warning.c_str());
+    ImGui::PopTextWrapPos();
+  }
+}
+
+} // namespace candela

@@ -1,0 +1,40 @@
+#pragma once
+// OpenGL without a display: OSMesa draws into memory. libOSMesa is opened at run time, because linked beside
+// libGL it would silently take over its functions.
+
+#include "app/platform/gl.h"
+#include "core/math.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace candela {
+
+/// An OpenGL 3.3 core context that draws into memory, current on the thread that made it.
+class OffscreenContext {
+public:
+  /// Of one pixel. An Error with ExitCode::display if libOSMesa is missing or has no such context.
+  OffscreenContext();
+  ~OffscreenContext();
+  OffscreenContext(const OffscreenContext&) = delete;
+  OffscreenContext& operator=(const OffscreenContext&) = delete;
+
+  void resize(ivec2 size);
+
+  const Gl& gl() const { return gl_; }
+  ivec2 size() const { return size_; }
+
+  /// RGBA of the framebuffer, row 0 at the top.
+  std::vector<std::uint8_t> pixels() const;
+
+private:
+  void* library_ = nullptr;
+  void* context_ = nullptr;
+  unsigned char (*make_current_)(void*, void*, unsigned, int, int) = nullptr;
+  void (*destroy_)(void*) = nullptr;
+  Gl gl_;
+  ivec2 size_{0};
+  std::vector<std::uint8_t> memory_;
+};
+
+} // namespace candela

@@ -1,0 +1,44 @@
+#pragma once
+// Between the world and the screen: where a point is drawn, and what a mouse position looks along.
+
+#include "app/tools/viewport.h"
+#include "render/camera/camera_rays.h"
+
+#include <optional>
+#include <utility>
+
+namespace candela {
+
+class ScreenProjection {
+public:
+  /// `picture` is where a film of `film` pixels lies on the screen. The camera must have no camera_problem().
+  ScreenProjection(const Camera& camera, const PixelRect& picture, ivec2 film);
+
+  /// Screen position in framebuffer pixels; nothing for what is not before the camera.
+  std::optional<vec2> point(vec3 world) const;
+  /// The part of a segment that is before the camera; nothing if none is.
+  std::optional<std::pair<vec2, vec2>> segment(vec3 a, vec3 b) const;
+  /// The world-space ray of unit direction under a screen position.
+  Ray ray(vec2 screen) const;
+  /// The film position under a screen position; nothing beside the picture.
+  std::optional<vec2> film_position(vec2 screen) const;
+  /// Scene units that a pixel of the screen spans at the depth of a point.
+  float units_per_pixel(vec3 world) const;
+  vec3 forward() const { return rays_.forward(); }
+  vec3 right() const { return right_; }
+  vec3 up() const { return up_; }
+  const PixelRect& picture() const { return picture_; }
+
+private:
+  vec2 to_film(vec2 screen) const {
+    return (screen - vec2(picture_.x, picture_.y)) * film_ / vec2(picture_.width, picture_.height);
+  }
+
+  CameraRays rays_;
+  PixelRect picture_;
+  vec2 film_;
+  vec3 right_, up_;
+  float near_; ///< what is closer along the view axis is not drawn
+};
+
+} // namespace candela

@@ -1,0 +1,17 @@
+#pragma once
+// The window on the screen: GLFW's callbacks made into events for the Viewer.
+
+#include "app/viewer/viewer.h"
+#include "app/window/frame_loop.h"
+
+namespace candela {
+
+/// Whether there is a display to open a window on. The connection to it is kept for the window: a server such
+/// as Xvfb starts anew, and refuses for a moment, when its last client leaves.
+bool display_available();
+
+/// Opens the window and returns when it is closed, or when `driver` (null: nobody) is done. An Error with
+/// ExitCode::display, cause and remedy if there is no display or no OpenGL 3.3.
+void run_window(ViewerOptions options, ViewerDriver* driver = nullptr);
+
+} // namespace candela

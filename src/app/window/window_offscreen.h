@@ -1,0 +1,12 @@
+#pragma once
+// The window where there is no display: the same viewer and the same loop, drawn into memory.
+
+#include "app/viewer/viewer.h"
+#include "app/window/frame_loop.h"
+
+namespace candela {
+
+/// Returns when the driver is done. An Error with ExitCode::display if OSMesa is missing.
+void run_offscreen(ViewerOptions options, ivec2 size, ViewerDriver& driver);
+
+} // namespace candela

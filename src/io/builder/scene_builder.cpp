@@ -1,0 +1,170 @@
+#include "io/builder/scene_builder.h"
+
+#include "io/files/text_file.h"
+#include "io/images/panorama_reader.h"
+#include "io/images/texture_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace candela {
+
+void SceneBuilder::expect_file(const std::string& reference, const std::string& folder) {
+  if (!expected_.insert(reference).second) return;
+  try {
+    if (auto file = policy_.find(reference, folder, {}, "")) warnings_.expect_file(file->canonical);
+  } catch (const Error&) {} // its reader says it, and where
+}
+
+MeshFile& SceneBuilder::mesh_file(const FoundFile& file, const std::string& name, const Location& where,
+                                  std::string_view element) {
+  auto& by_name = meshes_[file.canonical];
+  if (by_name.empty()) {
+    if (lower_ending(file.shown) != ".obj")
+      throw input_error(where, element, fmt::format("'{}' is no mesh file that can be read", file.shown),
+                        "give an OBJ file");
+    ObjModel model = read_obj(file, policy_, dialect_, warnings_);
+    std::string key = name.empty() ? model.mesh.name : name;
+    model.mesh.name = key;
+    std::vector<int> none(model.materials.size(), -1);
+    return by_name[key] = {std::make_shared<const Mesh>(std::move(model.mesh)), std::move(model.materials),
+                           none};
+  }
+  const MeshFile& first = by_name.begin()->second;
+  std::string key = name;
+  if (key.empty()) key = std::filesystem::path(file.shown).stem().string();
+  if (auto known = by_name.find(key); known != by_name.end()) return known->second;
+  Mesh renamed = *first.mesh;
+  renamed.name = key;
+  std::vector<int> none(first.mtl.size(), -1);
+  return by_name[key] = {std::make_shared<const Mesh>(std::move(renamed)), first.mtl, none};
+}
+
+int SceneBuilder::texture(const FoundFile& file) {
+  if (auto known = textures_.find(file.canonical); known != textures_.end()) return known->second;
+  return append_texture(file);
+}
+
+int SceneBuilder::texture_or_none(const FoundFile& file, const Location& where) {
+  if (broken_textures_.contains(file.canonical)) return -1;
+  try {
+    return texture(file);
+  } catch (const Error& problem) {
+    broken_textures_.insert(file.canonical);
+    warnings_.add(where, fmt::format("no texture: {}", problem.what()));
+    return -1;
+  }
+}
+
+int SceneBuilder::append_texture(const FoundFile& file) {
+  auto known = textures_.find(file.canonical);
+  auto texture = known == textures_.end() ? read_texture(file.canonical, warnings_)
+                                          : scene_.textures[static_cast<std::size_t>(known->second)];
+  auto index = static_cast<int>(scene_.textures.size());
+  scene_.textures.push_back(std::move(texture));
+  textures_.try_emplace(file.canonical, index);
+  return index;
+}
+
+std::shared_ptr<const Panorama> SceneBuilder::panorama(const std::vector<FoundFile>& files) {
+  std::vector<std::string> paths;
+  for (const FoundFile& file : files) paths.push_back(file.canonical);
+  auto& panorama = panoramas_[paths];
+  if (!panorama) panorama = read_panorama(paths, warnings_);
+  return panorama;
+}
+
+std::string SceneBuilder::unused_material_name(const std::string& wish) const {
+  std::string name = wish;
+  for (int i = 2; material_names_.contains(name); ++i) name = fmt::format("{}-{}", wish, i);
+  return name;
+}
+
+int SceneBuilder::add_material(Material material) {
+  material_names_.insert(material.name);
+  scene_.materials.push_back(std::move(material));
+  return static_cast<int>(scene_.materials.size()) - 1;
+}
+
+int add_mtl_material(SceneBuilder& builder, const MtlMaterial& source, const std::string& name) {
+  Material material = source.material;
+  material.name = name;
+  if (source.diffuse_texture)
+    material.diffuse_texture = builder.texture_or_none(*source.diffuse_texture, source.texture_where);
+  return builder.add_material(std::move(material));
+}
+
+int SceneBuilder::imported_material(MeshFile& file, std::size_t slot) {
+  if (!file.mtl[slot]) return -1;
+  int& index = file.imported[slot];
+  if (index < 0)
+    index = add_mtl_material(
+        *this, *file.mtl[slot],
+        unused_material_name(fmt::format("{}/{}", file.mesh->name, file.mesh->slot_names[slot])));
+  return index;
+}
+
+int SceneBuilder::default_material() {
+  if (default_material_ < 0) {
+    Material grey;
+    grey.name = unused_material_name("default");
+    default_material_ = add_material(std::move(grey));
+  }
+  return default_material_;
+}
+
+int SceneBuilder::missing_material(const MeshFile& file, std::size_t slot, const Location& where) {
+  const std::string& name = file.mesh->slot_names[slot];
+  constexpr std::size_t kLongestName = 100;
+  warnings_.add(where, name.empty() ? "faces without a material: a grey is taken"
+                                    : fmt::format("there is no material '{}': a grey is taken",
+                                                  name.substr(0, kLongestName)));
+  return default_material();
+}
+
+void SceneBuilder::place(Instance& instance, const glm::dmat4& world_from_object, const Location& where) {
+  const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape);
+  instance.world_from_object =
+      mat4(mesh ? glm::translate(world_from_object, (*mesh)->origin) : world_from_object);
+  if (!mesh) return;
+  // So little of a mesh cannot be seen.
+  constexpr double kInvisible = 0x1p-13;
+  const Bounds3 bounds = instance_bounds({instance});
+  const vec3 most = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));
+  const float far = max_component(most);
+  const double size = static_cast<double>(glm::length(bounds.diagonal()));
+  const double step = static_cast<double>(std::nextafter(far, std::numeric_limits<float>::max()) - far);
+  if (size > 0 && step > kInvisible * size)
+    warnings_.add(where,
+                  fmt::format("a mesh of size {:.3g} lies {:.3g} from the origin, where floats are {:.2g} "
+                              "apart: it loses its shape; move the scene to the origin",
+                              size, far, step));
+}
+
+Bounds3 object_bounds(const Shape& shape) { return shape_bounds(shape); }
+
+Bounds3 scene_bounds(const SceneDesc& scene) { return instance_bounds(scene.instances); }
+
+bool has_light(const SceneDesc& scene) {
+  auto shines = [&](int material) {
+    return !is_black(scene.materials[static_cast<std::size_t>(material)].emission);
+  };
+  return std::ranges::any_of(scene.lights,
+                             [](const LightDesc& l) { return l.scale > 0 && !is_black(l.color); }) ||
+         std::ranges::any_of(scene.instances,
+                             [&](const Instance& i) { return std::ranges::any_of(i.materials, shines); });
+}
+
+void frame_camera(Camera& camera, const Bounds3& bounds) {
+  float radius = std::max(0.5f * glm::length(bounds.diagonal()), 1e-6f);
+  // A sphere about the bounds touches the view cone; a little more leaves a margin.
+  float distance = 1.05f * radius / std::sin(0.5f * camera.vertical_fov);
+  camera.target = bounds.center();
+  camera.position = camera.target + distance * glm::normalize(vec3(0.3f, 0.25f, 1));
+  camera.up = {0, 1, 0};
+  camera.orthographic_height = std::min(2 * 1.05f * radius, Camera::kGreatestHeight);
+}
+
+} // namespace candela

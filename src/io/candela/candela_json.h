@@ -1,0 +1,83 @@
+#pragma once
+// The Candela scene format, version 1: JSON, comments allowed.
+//
+//   {
+//     "candela": 1,
+//     "description": "free text, for people",
+//     "camera": {"position": [0, 1, 4], "target": [0, 1, 0], "up": [0, 1, 0], "vertical_fov": 40,
+//                "aperture_radius": 0, "focus_distance": 0},
+//     "materials": [
+//       {"name": "red", "type": "diffuse", "diffuse": [0.63, 0.065, 0.05]},
+//       {"name": "wood", "diffuse": 1, "diffuse_texture": "wood.png"},
+//       {"name": "lamp", "diffuse": 0, "emission": [17, 12, 4]}
+//     ],
+//     "lights": [{"name": "sky", "type": "constant", "color": [0.5, 0.6, 1], "scale": 2}],
+//     "meshes": {
+//       "bunny": {"file": "meshes/bunny.obj"},
+//       "kite": {"positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 2]]}
+//     },
+//     "instances": [
+//       {"name": "ball", "shape": "sphere", "radius": 0.5, "material": "red"},
+//       {"shape": "mesh", "mesh": "bunny", "materials": {"fur": "red"}},
+//       {"file": "meshes/tree.obj"},
+//       {"shape": "rectangle", "material": "lamp",
+//        "transform": [{"scale": 0.3}, {"rotate": [1, 0, 0, 90]}, {"translate": [0, 1.9, 0]}]}
+//     ],
+//     "settings": {"path": {"max_depth": 8}, "film": {"width": 640, "height": 480}}
+//   }
+//
+// camera, settings: the rows of settings_table(), nested at the dots of their keys. materials, lights: the
+// rows of material_fields() and light_fields(). Angles are degrees; a colour may be one number, a grey. All
+// but "candela" may be left out and has its default then.
+//
+// An environment light has a panorama: "file", or "files" (six faces of a cube: +x, -x, +y, -y, +z, -z), or
+// inline "image": {"name", "width", "height", "pixels": [3 width height numbers]}; without one it is the same
+// from everywhere. For its "mapping" see render/lights/environment_map.h.
+//
+// Files are named relative to the scene's folder. A material's "diffuse_texture" is a picture file, or the
+// index of an entry of "textures": a list of {"file": …} or {"name", "width", "height", "srgb": [bytes]}. It
+// is looked up at "diffuse_uv_scale" * uv + "diffuse_uv_offset", two numbers each.
+//
+// A mesh is a file, or inline: "positions", "triangles" (indices from 0), and perhaps "normals" (unit, or
+// zero: flat), "uvs" (both per vertex), "material_slots" (per triangle, into "slots"), "slots" (names, one
+// of "" if left out), "source" (the file it once came from, never opened). "name" is the mesh's name if it is
+// not its key.
+//
+// "shape" is one of shape_names() in scene/scene_desc.h, with the values of shape_fields(): sphere (with
+// "radius", about the origin), rectangle ([-1, 1]^2 in the xy plane), disc (of radius 1 there), plane (all of
+// it; these face +z), cube ([-1, 1]^3), cylinder and cone ("radius", "height", "caps"; along z from 0), torus
+// ("radius", "minor_radius"; about z). It may be left out beside "mesh" and
+// "file". "material" names a material (or is its index) for all slots of a mesh, "materials" one for each
+// slot by the slot's name, or a list in the order of the slots. Slots of an OBJ file left without one get
+// that of its MTL, imported as "mesh/slot"; all others a grey.
+//
+// "transform" (world from object) is a matrix of 16 numbers, row-major, or a list of steps applied in the
+// order in which they are listed: {"translate": [x, y, z]}, {"rotate": [axis x, y, z, degrees]}, {"scale": s
+// or [x, y, z]}, {"matrix": [16 numbers]}, {"look_at": {"origin", "target", "up"}}, which turns +z to the
+// target.
+
+#include "io/builder/scene_builder.h"
+#include "scene/document.h"
+
+#include <string>
+
+namespace candela {
+
+/// Reads a scene; `file` may name files as `policy` has it. Every error has the line and column of the
+/// offending token.
+Document read_candela_json(const FoundFile& file, const PathPolicy& policy, WarningList& warnings);
+
+/// The same from a text that lies in the file `shown` (a picture), and names files relative to its folder.
+Document parse_candela_json(std::string text, const std::string& shown, const PathPolicy& policy,
+                            WarningList& warnings);
+
+/// The document in the format above: what differs from the defaults. Numbers read back to the same bits.
+/// Mesh files inside the tree of `folder` are written by reference, relative to it, other meshes inline (a
+/// scene may not name files outside its tree); pictures by reference wherever they lie, inline only if they
+/// came from no file. Throws output_error for a document with a document_problem.
+std::string candela_json(const Document& document, const std::string& folder);
+
+/// The same into a file, which appears whole or not at all. output_error if it cannot be written.
+void write_candela_json(const Document& document, const std::string& path);
+
+} // namespace candela

@@ -1,0 +1,18 @@
+#pragma once
+// Entries of "lights" in Candela JSON.
+
+#include "io/builder/scene_builder.h"
+#include "io/candela/json_tree.h"
+
+namespace candela {
+
+/// Reads {"name", the rows of light_fields()} and the panorama of an environment: "file", or "files" of six
+/// faces, or "image": {"name", "width", "height", "pixels": [3 width height numbers]}. Files are named
+/// relative to `folder`. Throws input_error.
+LightDesc read_json_light(JsonValue object, const std::string& element, SceneBuilder& builder,
+                          const std::string& folder);
+
+/// "image": …, of a panorama that came from no file.
+std::string json_panorama_member(const Panorama& panorama);
+
+} // namespace candela

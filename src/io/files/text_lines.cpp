@@ -1,0 +1,62 @@
+#include "io/files/text_lines.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace candela {
+
+namespace {
+
+/// So much is searched between two looks at whether to go on.
+constexpr std::size_t kStride = std::size_t{16} << 20;
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+} // namespace
+
+TextLines::TextLines(std::string& text, ProgressPart& progress, double share)
+    : text_(text), progress_(progress), share_of_byte_(share / static_cast<double>(text.size() + 1)) {}
+
+/// Of the first `c` in [from, limit), `limit` if there is none.
+std::size_t TextLines::find(char c, std::size_t from, std::size_t limit) const {
+  for (std::size_t begin = from; begin < limit; begin += kStride) {
+    progress_.check();
+    const std::size_t length = std::min(kStride, limit - begin);
+    if (const void* found = std::memchr(text_.data() + begin, c, length))
+      return static_cast<std::size_t>(static_cast<const char*>(found) - text_.data());
+  }
+  return limit;
+}
+
+std::size_t TextLines::end_of_line(std::size_t from) {
+  // Two searches for one character each are many times quicker than one for either; the LF that was found is
+  // kept, as a file whose lines end in CR has none.
+  if (!newline_known_ || newline_ < from) newline_ = find('\n', from, text_.size()), newline_known_ = true;
+  return find('\r', from, newline_);
+}
+
+bool TextLines::next() {
+  if (next_ >= text_.size()) return false;
+  number_ += 1 + joined_;
+  joined_ = 0;
+  const std::size_t begin = next_;
+  std::size_t end = begin, from = begin;
+  for (;;) {
+    reach(from);
+    end = end_of_line(from);
+    next_ = std::min(end + 1, text_.size());
+    if (end < text_.size() && text_[end] == '\r' && next_ < text_.size() && text_[next_] == '\n') ++next_;
+    std::size_t last = end;
+    while (last > from && is_blank(text_[last - 1])) --last;
+    const bool continued = last > from && text_[last - 1] == '\\' && next_ < text_.size();
+    if (!continued) break;
+    std::fill(text_.begin() + static_cast<std::ptrdiff_t>(last - 1),
+              text_.begin() + static_cast<std::ptrdiff_t>(next_), ' ');
+    ++joined_;
+    from = next_;
+  }
+  line_ = std::string_view(text_).substr(begin, end - begin);
+  return true;
+}
+
+} // namespace candela

@@ -1,0 +1,114 @@
+#pragma once
+// What the image formats of this folder have in common, and their entry points.
+// Only image_file.cpp, texture_reader.cpp and panorama_reader.cpp use these;
+// everybody else goes through their headers.
+//
+// Decoders take the whole file; they throw input_error for what is damaged and
+// limit_error for what is too large, located at `where`, before they allocate
+// pixels. `progress`, which may be null, tells how far they are; they end with
+// Cancelled when it says so, but for PNG, BMP and TGA, which are run apart
+// (io/files/apart.h) where somebody may want to stop them.
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "imaging/image.h"
+#include "io/files/file_bytes.h"
+#include "io/files/warning_list.h"
+#include "io/images/image_file.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace candela {
+
+/// Caps of every reader of pictures.
+inline constexpr std::int64_t kMaxImageSide = 65536;
+inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
+
+/// Of a text in a picture, once it is decompressed.
+inline constexpr std::size_t kMaxPictureText = std::size_t{1} << 28;
+
+/// Throws input_error unless both sides are positive, limit_error above the
+/// caps.
+void check_image_size(const Location& where, std::int64_t width, std::int64_t height);
+
+/// The error of a damaged file.
+Error damaged_image(const Location& where, std::string_view cause);
+
+/// 8 bits a channel, row 0 is the top, encoded as sRGB.
+struct Picture8 {
+  int width = 0;
+  int height = 0;
+  Bytes rgb;
+};
+
+// image_file.cpp: the format is known by its signature.
+Image decode_image(ByteView bytes, const Location& where, ProgressPart* progress = nullptr,
+                   WarningList* warnings = nullptr);
+
+/// The linear picture.
+Image linear_image(const Picture8& picture);
+
+/// Makes the pixels of a picture finite: NaN becomes 0, an infinity what the half
+/// precision of EXR means by it, "more than 65504", or the largest value that is
+/// there, if that is more. Both are counted in a warning.
+void make_finite(Image& image, const Location& where, WarningList& warnings);
+
+// stb_codec.cpp: PNG, BMP and (`tga`: it has no signature, so the caller has to
+// know) TGA, whichever way its rows and columns run. Alpha is dropped; PNGs of 16 bits keep them in
+// decode_stb.
+bool is_stb_format(ByteView bytes);
+Picture8 decode_stb8(ByteView bytes, const Location& where, bool tga = false);
+Image decode_stb(ByteView bytes, const Location& where, bool tga = false);
+/// Throws std::bad_alloc when out of memory.
+Bytes encode_png(int width, int height, ByteView rgb);
+
+// png_check.cpp: structure and checksums of a PNG, which stb_image leaves
+// unread.
+bool is_png(ByteView bytes);
+void check_png(ByteView bytes, const Location& where);
+
+// png_text.cpp: text in a PNG.
+/// Adds iTXt chunks before the end; long texts are compressed.
+Bytes with_png_text(Bytes png, const ImageMetadata& text);
+/// The text of that name (in an iTXt chunk), nothing if there is none. The PNG has passed check_png. Throws
+/// damaged_image for a chunk that breaks off, limit_error above kMaxPictureText bytes of text.
+std::optional<std::string> png_text(ByteView bytes, std::string_view name, const Location& where);
+
+// jpg.cpp: JPEG, grey and colour; written with quality 95 and colour in full
+// resolution.
+bool is_jpg(ByteView bytes);
+Picture8 decode_jpg(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
+/// `path` is for messages: output_error for what the format cannot hold (sides
+/// above 65500).
+Bytes encode_jpg(int width, int height, ByteView rgb, const std::string& path);
+
+// pnm.cpp: PPM and PGM (P2, P3, P5, P6), up to 16 bits, read as sRGB; written
+// as P6.
+bool is_pnm(ByteView bytes);
+Image decode_pnm(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
+Bytes encode_ppm(int width, int height, ByteView rgb);
+
+// exr.cpp: OpenEXR, flat parts, any compression; written as 32-bit float, ZIP.
+// Of several parts or layers one is read (io/images/exr_layers.h), and the warnings name
+// the others.
+bool is_exr(ByteView bytes);
+Image decode_exr(ByteView bytes, const Location& where, ProgressPart* progress = nullptr,
+                 WarningList* warnings = nullptr);
+/// The string attribute of that name; nothing if there is none.
+std::optional<std::string> exr_text(ByteView bytes, const std::string& name, const Location& where);
+/// `path` is for messages.
+Bytes encode_exr(const Image& image, const std::string& path, const ImageMetadata& metadata);
+
+// hdr.cpp: Radiance RGBE.
+bool is_hdr(ByteView bytes);
+Image decode_hdr(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
+Bytes encode_hdr(const Image& image, const ImageMetadata& metadata);
+
+// pfm.cpp: portable float map, colour and grey, either byte order.
+bool is_pfm(ByteView bytes);
+Image decode_pfm(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
+Bytes encode_pfm(const Image& image);
+
+} // namespace candela

@@ -1,0 +1,52 @@
+#pragma once
+// Pictures in files, whatever their format.
+
+#include "imaging/image.h"
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace candela {
+
+/// The formats that can be written. PNG, JPG and PPM hold 8-bit sRGB, the others linear floats.
+enum class ImageFormat { png, jpg, ppm, exr, hdr, pfm };
+
+/// By the path's ending, in either case (".jpeg" and ".pic" are known too); a usage error that lists the
+/// known endings for any other.
+ImageFormat image_format_of(std::string_view path);
+
+/// Whether the ending, in either case, is that of a picture that read_image might read.
+bool is_image_name(std::string_view path);
+
+/// Whether the format holds linear radiance rather than a tone-mapped picture.
+constexpr bool is_linear_format(ImageFormat format) { return format >= ImageFormat::exr; }
+
+/// Reads PNG, JPG, BMP, PPM/PGM (decoded from sRGB), EXR, HDR and PFM (linear). The content decides the
+/// format, not the name. Alpha is dropped; a grey picture has three equal channels, a channel that an EXR
+/// lacks is 0; of an EXR the data window is read, and colours are brought to Rec. 709 if the file names other
+/// primaries. Throws input_error for a file that cannot be read, limit_error above 65536 pixels a side or
+/// 2^28 in all.
+Image read_image(const std::string& path);
+
+/// Text (UTF-8) to keep in the file, by name: chunks in PNG, string attributes in EXR, header lines in HDR.
+/// The other formats have no room for it.
+using ImageMetadata = std::map<std::string, std::string>;
+
+/// Writes EXR (32-bit float, ZIP), HDR (negative and NaN channels become 0) or PFM by the ending. The file
+/// appears whole or not at all. A usage error for other endings, output_error if it cannot be written.
+void write_linear_image(const Image& image, const std::string& path, const ImageMetadata& metadata = {});
+
+/// Writes PNG, JPG (quality 95) or PPM by the ending, from rows of three bytes a pixel, top row first.
+void write_srgb8_image(int width, int height, std::span<const std::uint8_t> rgb, const std::string& path,
+                       const ImageMetadata& metadata = {});
+
+/// The same for screenshots: never overwrites, but takes the first free of stem.png, stem-2.png … in the
+/// folder and returns its path.
+std::string write_srgb8_image_uniquely(int width, int height, std::span<const std::uint8_t> rgb,
+                                       const std::string& folder, const std::string& stem,
+                                       ImageFormat format = ImageFormat::png);
+
+} // namespace candela

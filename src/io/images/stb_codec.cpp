@@ -1,0 +1,141 @@
+// PNG, BMP and TGA by stb_image. It is compiled here rather than linked from
+// Debian's libstb so that only these formats are reachable from a hostile file
+// (its JPEG, GIF, PSD and PIC readers have known holes) and so that the
+// sanitizers see inside.
+
+#include "core/color.h"
+#include "io/images/image_codec.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#define STBI_ONLY_BMP
+#define STBI_ONLY_TGA
+#define STBI_NO_STDIO
+#define STBI_NO_LINEAR
+#include <stb_image.h>
+#include <stb_image_write.h>
+
+namespace candela {
+
+namespace {
+
+template <class T>
+using StbPixels = std::unique_ptr<T, decltype([](T* p) { std::free(p); })>;
+
+bool is_bmp(ByteView bytes) { return bytes.size() >= 2 && bytes[0] == 'B' && bytes[1] == 'M'; }
+
+/// Uncompressed rows that the file does not hold would be read as whatever the
+/// memory held before.
+void check_tga(ByteView bytes, const Location& where, std::int64_t pixels) {
+  bool run_length = (bytes[2] & 8) != 0;
+  std::int64_t bytes_per_pixel = (bytes[16] + 7) / 8;
+  // A run-length packet makes at most 128 pixels.
+  std::int64_t least = run_length ? pixels / 128 * (1 + bytes_per_pixel) : pixels * bytes_per_pixel;
+  if (static_cast<std::int64_t>(bytes.size()) - 18 < least)
+    throw damaged_image(where, "the TGA is too short for the size it claims");
+}
+
+void check_bmp(ByteView bytes, const Location& where, std::int64_t pixels) {
+  if (bytes.size() < 30) throw damaged_image(where, "the BMP ends within its header");
+  int bits = bytes[14] == 12 ? bytes[24] : bytes[28];
+  if (static_cast<std::int64_t>(bytes.size()) * 8 < pixels * bits)
+    throw damaged_image(where, "the BMP is too short for the size it claims");
+}
+
+/// A TGA says in its descriptor whether its rows run from the right, which stb_image overlooks.
+bool runs_leftwards(ByteView tga) { return (tga[17] & 0x10) != 0; }
+
+void mirror_rows(Picture8& picture) {
+  const auto w = static_cast<std::size_t>(picture.width), h = static_cast<std::size_t>(picture.height);
+  for (std::size_t y = 0; y < h; ++y)
+    for (std::size_t x = 0; x < w / 2; ++x)
+      std::swap_ranges(&picture.rgb[3 * (y * w + x)], &picture.rgb[3 * (y * w + x)] + 3,
+                       &picture.rgb[3 * (y * w + w - 1 - x)]);
+}
+
+Error undecodable(const Location& where) {
+  const char* reason = stbi_failure_reason();
+  return damaged_image(where,
+                       fmt::format("it cannot be decoded ({})", reason ? reason : "for no stated reason"));
+}
+
+/// Everything that is checked before pixels are allocated; the size.
+std::pair<int, int> check_stb(ByteView bytes, const Location& where, bool tga) {
+  if (is_png(bytes)) check_png(bytes, where);
+  bool is_tga = tga && !is_stb_format(bytes);
+  // No other format that stb_image would find has such a second byte (TGA's
+  // kind of colour map), so that none gets past its own check by the ending
+  // .tga.
+  if (is_tga && (bytes.size() < 18 || bytes[1] > 1)) throw damaged_image(where, "it is no TGA");
+  int width = 0, height = 0, channels = 0;
+  if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) == 0)
+    throw undecodable(where);
+  check_image_size(where, width, height);
+  std::int64_t pixels = std::int64_t{width} * height;
+  if (is_bmp(bytes)) check_bmp(bytes, where, pixels);
+  if (is_tga) check_tga(bytes, where, pixels);
+  return {width, height};
+}
+
+} // namespace
+
+bool is_stb_format(ByteView bytes) { return is_png(bytes) || is_bmp(bytes); }
+
+Picture8 decode_stb8(ByteView bytes, const Location& where, bool tga) {
+  auto size = check_stb(bytes, where, tga);
+  int width = 0, height = 0, channels = 0;
+  StbPixels<stbi_uc> data(
+      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 3));
+  if (!data) throw undecodable(where);
+  if (std::pair(width, height) != size) throw damaged_image(where, "its headers disagree about its size");
+  std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
+  Picture8 picture{width, height, Bytes(data.get(), data.get() + count)};
+  if (tga && !is_stb_format(bytes) && runs_leftwards(bytes)) mirror_rows(picture);
+  return picture;
+}
+
+Image decode_stb(ByteView bytes, const Location& where, bool tga) {
+  if (!is_png(bytes) || stbi_is_16_bit_from_memory(bytes.data(), static_cast<int>(bytes.size())) == 0)
+    return linear_image(decode_stb8(bytes, where, tga));
+  auto size = check_stb(bytes, where, tga);
+  int width = 0, height = 0, channels = 0;
+  StbPixels<stbi_us> data(
+      stbi_load_16_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 3));
+  if (!data) throw undecodable(where);
+  if (std::pair(width, height) != size) throw damaged_image(where, "its headers disagree about its size");
+  std::vector<float> linear(65536);
+  for (std::size_t i = 0; i < linear.size(); ++i)
+    linear[i] = linear_from_srgb(static_cast<float>(i) / 65535.0f);
+  Image image{width, height,
+              std::vector<vec3>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
+  const stbi_us* p = data.get();
+  for (vec3& pixel : image.pixels) pixel = {linear[p[0]], linear[p[1]], linear[p[2]]}, p += 3;
+  return image;
+}
+
+namespace {
+
+void append(void* context, void* data, int size) {
+  auto* out = static_cast<Bytes*>(context);
+  auto* begin = static_cast<const std::uint8_t*>(data);
+  out->insert(out->end(), begin, begin + size);
+}
+
+} // namespace
+
+Bytes encode_png(int width, int height, ByteView rgb) {
+  Bytes out;
+  if (stbi_write_png_to_func(append, &out, width, height, 3, rgb.data(), width * 3) == 0)
+    throw std::bad_alloc();
+  return out;
+}
+
+} // namespace candela

@@ -1,0 +1,34 @@
+#pragma once
+// The statements of an MTL file, one material after the other.
+
+#include "core/math.h"
+#include "io/files/text_lines.h"
+#include "io/files/warning_list.h"
+#include "io/obj/map_statement.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace candela {
+
+/// What a material says; nothing where it does not.
+struct MtlStatements {
+  std::string name; ///< as the file spells it
+  Location where;   ///< of the newmtl
+  std::optional<vec3> kd, ks, ke, tf;
+  std::optional<float> ns, ni, d;
+  std::optional<int> illum;
+  struct Map {
+    std::string file;
+    vec2 scale{1}, offset{0};
+    Location where;
+  };
+  std::optional<Map> map_kd;
+};
+
+/// Reads all lines. What does not fit is ignored, statement by statement, and counted in the warnings with
+/// its place.
+std::vector<MtlStatements> parse_mtl(TextLines& lines, const std::string& file, WarningList& warnings);
+
+} // namespace candela

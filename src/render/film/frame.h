@@ -1,0 +1,46 @@
+#pragma once
+// What a render shows of itself: an immutable snapshot that any thread may look at.
+
+#include "render/integrators/ray_counts.h"
+#include "scene/document.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace candela {
+
+/// A sample whose radiance was NaN or infinite; it can be traced again from these numbers alone.
+struct NonFiniteSample {
+  uvec2 pixel{0};
+  std::uint32_t sample = 0;
+  int depth = 0; ///< path segment that made it so
+};
+
+struct NonFiniteLog {
+  static constexpr std::size_t kMaxRecords = 64;
+  std::uint64_t count = 0;
+  std::vector<NonFiniteSample> records; ///< the first kMaxRecords by pixel order of each pass
+};
+
+struct Frame {
+  std::uint64_t generation = 0; ///< of the Document that it shows, as RenderSession::submit returned it
+  int width = 0;
+  int height = 0;
+  int coarseness = 1; ///< side of the blocks of one sample while the first pass refines: 8, 4, 2, then 1
+  int spp = 0;        ///< complete passes
+  std::shared_ptr<const Document> document; ///< as it was when the accumulation began
+  View view = View::radiance;
+  std::vector<vec3> linear; ///< the view; row 0 is the top; holes of a coarse pass filled from their block
+  /// Per pixel, of the accumulated mean; empty while the first pass is coarse.
+  std::vector<vec3> variance;
+  std::vector<std::uint32_t> samples; ///< per pixel; empty while coarse
+  float display_scale =
+      1;          ///< multiplies `linear` for display (the depth view is shown relative to the scene)
+  RayCounts rays; ///< of this accumulation
+  double render_seconds = 0;     ///< of this accumulation, waiting excluded
+  double first_pass_seconds = 0; ///< of them, those that gave every pixel its first sample; 0 while coarse
+  NonFiniteLog nonfinite;
+};
+
+} // namespace candela

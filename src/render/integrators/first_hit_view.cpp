@@ -1,0 +1,49 @@
+#include "render/integrators/first_hit_view.h"
+
+namespace candela {
+
+namespace {
+
+/// Colours of neighbouring indices lie far apart on the hue circle (steps of the golden ratio), of middling
+/// lightness, so that any two meet in an edge.
+vec3 index_color(std::uint32_t index) {
+  float turn = static_cast<float>(index) * 0.6180339887f;
+  vec3 hue = 2 * kPi * (vec3(turn - std::floor(turn)) + vec3(0, 1.0f / 3, 2.0f / 3));
+  float lightness = index % 2 == 0 ? 0.5f : 0.3f;
+  return lightness * (1.0f + 0.7f * glm::cos(hue));
+}
+
+vec3 towards_viewer(vec3 normal, const Surface& surface, const Ray& ray) {
+  return 0.5f * (glm::dot(surface.geometric_normal, ray.direction) > 0 ? -normal : normal) + 0.5f;
+}
+
+} // namespace
+
+vec3 bvh_cost_value(const RenderScene& scene, const Ray& ray, RayCounts& counts) {
+  ++counts.closest;
+  const TraversalCost cost = scene.geometry().accel().cost(ray);
+  return vec3(static_cast<float>(cost.nodes + cost.packs));
+}
+
+vec3 first_hit_value(const RenderScene& scene, Ray ray, bool met, Hit hit, vec3 forward, View view,
+                     Sampler& sampler, RayCounts& counts) {
+  const vec3 origin = ray.origin;
+  sampler.set_bounce(1);
+  if (!look_through(scene, ray, sampler, met, hit, counts)) return vec3(0);
+  Surface surface = scene.geometry().surface(ray, hit);
+  auto uv = [&] { return scene.geometry().uv(ray, hit); };
+  switch (view) {
+  case View::albedo: {
+    const SurfaceMaterial& material = scene.material(surface.material);
+    return bsdf_albedo(material.diffuse_texture ? evaluate_bsdf(material, uv()) : material.bsdf);
+  }
+  case View::normal: return towards_viewer(surface.shading_normal, surface, ray);
+  case View::geometric_normal: return towards_viewer(surface.geometric_normal, surface, ray);
+  case View::depth: return vec3(glm::dot(surface.position - origin, forward));
+  case View::uv: return vec3(uv() - glm::floor(uv()), 0);
+  case View::material: return index_color(surface.material);
+  default: return vec3(0);
+  }
+}
+
+} // namespace candela

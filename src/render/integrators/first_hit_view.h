@@ -1,0 +1,19 @@
+#pragma once
+// Views of what a camera ray meets first.
+
+#include "render/integrators/transport.h"
+
+namespace candela {
+
+/// What a camera ray meets first, if `met`: `hit`, unless that is transparent.
+/// - albedo: rough reflectance; - normal, geometric_normal: towards the viewer, 0.5 n + 0.5;
+/// - depth: along `forward`, scene units; - uv: fractional parts, red and green;
+/// - material: a colour that the material's index chooses.
+/// 0 where the ray leaves the scene.
+vec3 first_hit_value(const RenderScene& scene, Ray ray, bool met, Hit hit, vec3 forward, View view,
+                     Sampler& sampler, RayCounts& counts);
+
+/// For View::bvh_cost: the nodes and packs of primitives that the ray tests.
+vec3 bvh_cost_value(const RenderScene& scene, const Ray& ray, RayCounts& counts);
+
+} // namespace candela

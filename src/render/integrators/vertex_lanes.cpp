@@ -1,0 +1,137 @@
+#include "render/integrators/vertex_lanes.h"
+
+#include "render/world/triangle_point.h"
+
+namespace candela {
+
+namespace {
+
+/// Triangles in world space and where they were hit.
+struct TriangleLanes {
+  Vec3Lanes p0, p1, p2;
+  Vec3Lanes smooth; ///< TriangleSet::smooth_normal
+  Lanes<float> u, v;
+
+  void clear(std::size_t i) {
+    for (Vec3Lanes* lanes : {&p0, &p1, &p2, &smooth}) lanes->set(i, vec3(0));
+    u[i] = v[i] = 0;
+  }
+};
+
+/// `normal` becomes the shading normal, whoever looks at it.
+[[gnu::noinline]] void set_points(TriangleLanes& __restrict t, VertexLanes& __restrict out) {
+  for (std::size_t i = 0; i < out.count; ++i) {
+    TrianglePoint p = triangle_point(t.p0[i], t.p1[i], t.p2[i], t.u[i], t.v[i]);
+    out.position.set(i, p.position);
+    out.position_error.set(i, p.error);
+    out.geometric_normal.set(i, p.normal);
+    out.normal.set(i, shading_normal(t.smooth[i], p.normal));
+  }
+}
+
+/// The rest, as seen from wo.
+[[gnu::noinline]] void set_frames(const Vec3Lanes& __restrict wo, VertexLanes& __restrict out) {
+  for (std::size_t i = 0; i < out.count; ++i) {
+    vec3 viewer = wo[i];
+    float side = glm::dot(viewer, out.geometric_normal[i]);
+    vec3 normal = visible_normal(out.normal[i], viewer, side);
+    out.side[i] = side;
+    out.normal.set(i, normal);
+    out.wo_local.set(i, Basis::from_normal(normal).to_local(viewer));
+  }
+}
+
+} // namespace
+
+void VertexLanes::meet(const RenderScene& scene, std::span<const Ray* const> rays,
+                       std::span<const Hit> hits) {
+  const Geometry& geometry = scene.geometry();
+  const TriangleSet& world = geometry.world();
+  TriangleLanes triangles;
+  Vec3Lanes wo;
+  std::array<std::uint32_t, kLaneCount> others; // hits of anything else
+  std::size_t other_count = 0;
+  count = hits.size();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Hit& hit = hits[i];
+    wo.set(i, -rays[i]->direction);
+    material[i] = &scene.material(geometry.material_of(hit));
+    if (hit.kind != PrimitiveKind::triangle || hit.instance != kNoInstance ||
+        material[i]->diffuse_texture != nullptr) {
+      others[other_count++] = i;
+      triangles.clear(i);
+      continue;
+    }
+    const uvec3 t = world.triangles[hit.primitive];
+    triangles.p0.set(i, world.positions[t.x]);
+    triangles.p1.set(i, world.positions[t.y]);
+    triangles.p2.set(i, world.positions[t.z]);
+    triangles.u[i] = hit.u;
+    triangles.v[i] = hit.v;
+    triangles.smooth.set(i, world.smooth_normal(t, hit.u, hit.v));
+  }
+  set_points(triangles, *this);
+  for (std::uint32_t i : std::span(others.data(), other_count)) {
+    const Surface s = geometry.surface(*rays[i], hits[i]);
+    position.set(i, s.position);
+    position_error.set(i, s.position_error);
+    geometric_normal.set(i, s.geometric_normal);
+    normal.set(i, s.shading_normal);
+    if (material[i]->diffuse_texture != nullptr)
+      textured[i] = evaluate_bsdf(*material[i], geometry.uv(*rays[i], hits[i]));
+  }
+  set_frames(wo, *this);
+  for (std::size_t i = 0; i < count; ++i) {
+    LightReference& r = reference[i];
+    r.position = position[i];
+    r.normal = side[i] > 0 ? geometric_normal[i] : -geometric_normal[i];
+  }
+}
+
+namespace {
+
+/// A direction and its mirror image about the surface's plane, in local coordinates, and whether each keeps
+/// the side of the surface that it means.
+struct MirroredPair {
+  vec3 mirrored;
+  bool keeps, mirrored_keeps;
+};
+MirroredPair mirrored_pair(const VertexLanes& v, std::size_t i, vec3 wi_local) {
+  const Basis frame = Basis::from_normal(v.normal[i]);
+  const vec3 outside = v.geometric_normal[i], wi = frame.to_world(wi_local);
+  const float along = glm::dot(wi, outside) * v.side[i], reflected = v.wo_local.z[i];
+  const vec3 mirrored = frame.to_local(mirrored_at_plane(wi, outside));
+  return {mirrored, (along > 0) == (wi_local.z * reflected > 0), (along < 0) == (mirrored.z * reflected > 0)};
+}
+
+} // namespace
+
+BsdfEval VertexLanes::folded_eval_pdf(std::size_t i, vec3 wi_local, DirectionSampling how,
+                                      const BsdfEval& own) const {
+  const MirroredPair pair = mirrored_pair(*this, i, wi_local);
+  BsdfEval sum{vec3(0), 0};
+  auto add = [&](const BsdfEval& e) { sum = {sum.f_cos + e.f_cos, sum.pdf + e.pdf}; };
+  if (pair.keeps) add(own);
+  if (!pair.mirrored_keeps) add(direction_eval_pdf(bsdf(i), wo_local[i], pair.mirrored, how));
+  return sum;
+}
+
+float VertexLanes::folded_pdf(std::size_t i, vec3 wi_local, DirectionSampling how) const {
+  const MirroredPair pair = mirrored_pair(*this, i, wi_local);
+  return pair.keeps != pair.mirrored_keeps ? direction_pdf(bsdf(i), wo_local[i], pair.mirrored, how) : 0;
+}
+
+void VertexLanes::set_one(const Vertex& vertex, const Bsdf& bsdf) {
+  count = 1;
+  position.set(0, vertex.surface.position);
+  position_error.set(0, vertex.surface.position_error);
+  geometric_normal.set(0, vertex.surface.geometric_normal);
+  normal.set(0, vertex.frame.n);
+  wo_local.set(0, vertex.wo_local);
+  side[0] = vertex.side;
+  reference[0] = vertex.reference;
+  material[0] = vertex.material;
+  textured[0] = bsdf;
+}
+
+} // namespace candela

@@ -1,0 +1,45 @@
+#pragma once
+// Which light next-event estimation asks.
+
+#include "render/lights/light_tree.h"
+#include "sampling/distribution.h"
+#include "scene/document.h"
+
+namespace candela {
+
+/// Choice among some of a scene's lights, as path.light_choice has it: in proportion to power, or by what
+/// they may contribute to the point that asks. Lights of which too many are without bounds (kMostApart) are
+/// chosen by power in any case.
+class LightSelection {
+public:
+  LightSelection() = default;
+  /// Among those of `lights` that `members` indexes, in a scene of the given radius. Throws Cancelled soon
+  /// after `progress` is told to end; it may be null.
+  LightSelection(std::span<const Light> lights, std::span<const std::uint32_t> members, LightChoiceBy how,
+                 float scene_radius, const Progress* progress = nullptr);
+
+  /// Nothing that shines.
+  bool empty() const { return by_power_ ? powers_.empty() : tree_.empty(); }
+  /// Whether what the point is like makes a difference.
+  bool is_choice() const { return !by_power_ && tree_.size() > 1; }
+  /// A light for u in [0, 1), monotonic in u but for choices by power; nothing where none seems to reach the
+  /// point.
+  std::optional<LightChoice> choose(const LightReference& ref, float u) const {
+    if (!by_power_) return tree_.choose(ref, u);
+    AliasTable::Sample s = powers_.sample(u);
+    return LightChoice{s.index, s.pmf, s.u};
+  }
+  /// Probability with which choose() gives a light.
+  float pmf(const LightReference& ref, std::uint32_t light) const {
+    if (!by_power_) return tree_.pmf(ref, light);
+    return powers_.empty() ? 0 : powers_.pmf(light);
+  }
+  std::size_t memory_bytes() const { return tree_.memory_bytes(); }
+
+private:
+  bool by_power_ = false;
+  AliasTable powers_;
+  LightTree tree_;
+};
+
+} // namespace candela

@@ -1,0 +1,91 @@
+#pragma once
+// A Document made ready to render; const while it is.
+
+#include "bsdf/bsdf.h"
+#include "render/lights/emitter_lights.h"
+#include "render/lights/light_selection.h"
+#include "render/world/geometry.h"
+#include "scene/document.h"
+
+namespace candela {
+
+/// Where a surface bounds no body that light enters.
+inline constexpr std::uint16_t kNoInterior = 0xffff;
+
+/// A material as shading needs it.
+struct SurfaceMaterial {
+  Bsdf bsdf;
+  const Texture* diffuse_texture = nullptr; ///< multiplies the BSDF's diffuse part; null: none
+  UvTransform diffuse_uv;                   ///< of that texture
+  vec3 emission{0};                         ///< W/(m^2 sr)
+  float opacity = 1;
+  bool emissive = false;
+  bool two_sided_emission = false;
+  /// What is behind the surface: RenderScene::absorption() tells its absorption. The same number for bodies
+  /// that absorb the same; of a clear dielectric, too, where anything absorbs: it may lie inside of that.
+  std::uint16_t interior = kNoInterior;
+};
+
+class RenderScene {
+public:
+  /// Reuses the geometry of `previous` where the instances are the same, and what it made of panoramas.
+  /// Throws Cancelled soon after `progress` is told to end; it may be null.
+  static std::shared_ptr<const RenderScene>
+  build(const Document& document, const RenderScene* previous = nullptr, Progress* progress = nullptr);
+  /// The same with geometry that was made of the document's instances.
+  static std::shared_ptr<const RenderScene> build(const Document& document,
+                                                  std::shared_ptr<const Geometry> geometry,
+                                                  const RenderScene* previous, Progress* progress = nullptr);
+
+  const std::vector<Instance>& instances() const { return instances_; }
+  const std::shared_ptr<const Geometry>& shared_geometry() const { return geometry_; }
+  const Geometry& geometry() const { return *geometry_; }
+  const SurfaceMaterial& material(std::uint32_t index) const { return materials_[index]; }
+  /// Whether any surface lets light straight through, so that rays must look.
+  bool has_transparency() const { return has_transparency_; }
+  /// Whether light fades on its way through any body, so that rays must know where they are.
+  bool has_absorption() const { return !absorptions_.empty(); }
+  /// sigma_a of an interior, 1/scene unit.
+  vec3 absorption(std::uint16_t interior) const { return absorptions_[interior]; }
+
+  const std::vector<Light>& lights() const { return lights_; }
+  /// The light that a primitive is (part of), or kNoLight.
+  std::uint32_t light_of(std::uint64_t emitter) const { return light_of_emitter_[emitter]; }
+  const std::vector<std::uint32_t>& infinite_lights() const { return infinite_lights_; }
+
+  /// Choice of a light as path.light_choice has it: among all, or among those that no direction can hit by
+  /// chance.
+  const LightSelection& all_lights() const { return all_lights_; }
+  const LightSelection& delta_lights() const { return delta_lights_; }
+
+  std::size_t memory_bytes() const;
+
+private:
+  std::shared_ptr<const Geometry> geometry_;
+  std::vector<Instance> instances_; ///< what geometry_ was built from
+  std::vector<std::shared_ptr<const Texture>> textures_;
+  std::vector<SurfaceMaterial> materials_;
+  std::vector<Light> lights_;
+  EmitterLights light_of_emitter_;
+  std::vector<std::uint32_t> infinite_lights_;
+  std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
+  LightSelection all_lights_, delta_lights_;
+  bool has_transparency_ = false;
+  std::vector<vec3> absorptions_; ///< by interior; empty where nothing absorbs
+
+  void add_materials(const Document& document);
+  void add_interiors(const std::vector<Material>& materials);
+  void add_emitters(const Progress* progress);
+  void add_lights(const std::vector<LightDesc>& lights, const RenderScene* previous,
+                  const Progress* progress);
+  const EnvironmentMap* environment_map(const LightDesc& light, const RenderScene* previous,
+                                        const Progress* progress);
+};
+
+/// The material's BSDF, without its texture.
+Bsdf make_bsdf(const Material& material);
+
+/// The BSDF of a material that has a texture, with it looked up at uv.
+Bsdf evaluate_bsdf(const SurfaceMaterial& material, vec2 uv);
+
+} // namespace candela

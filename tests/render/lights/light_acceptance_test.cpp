@@ -1,0 +1,96 @@
+// One predicate, LightReference::accepts, says where light may come from: the choice of a light, the sample
+// and the density that MIS is told must agree about it, also for points that transmit.
+
+#include "render/integrators/direct_light.h"
+#include "render/render_testing.h"
+
+#include <fmt/format.h>
+
+#include <random>
+
+namespace candela::test {
+namespace {
+
+struct Case {
+  const char* name;
+  SceneMaker scene;
+};
+
+/// Around the origin, whose normal is +y: what lies behind it is below.
+std::vector<Case> cases() {
+  auto lamp = [](SceneMaker& s, vec3 at, float half) { // faces the origin
+    const vec3 n = -glm::normalize(at), x = glm::normalize(glm::cross(n, vec3(0.3f, 0.2f, 0.9f)));
+    s.rectangle(at, x * half, glm::cross(n, x) * half, s.diffuse(vec3(0), vec3(3)));
+  };
+  std::vector<Case> all;
+  auto add = [&](const char* name) -> SceneMaker& {
+    return all.emplace_back(name, SceneMaker(1, 1, 1)).scene;
+  };
+  lamp(add("a lamp across the horizon"), {2, 0.2f, 0}, 1);
+  lamp(add("a lamp behind"), {0.5f, -2, 0}, 0.8f);
+  add("a sky").constant_light(vec3(1));
+  SceneMaker& several = add("lamps before and behind, a ball and a sky");
+  lamp(several, {1, 2, 0}, 0.7f);
+  lamp(several, {0, -2, 1}, 0.9f);
+  several.sphere({-2, 0.3f, 0}, 0.6f, several.diffuse(vec3(0), vec3(2)));
+  several.constant_light(vec3(0.5f));
+  return all;
+}
+
+TEST(LightAcceptanceStatistical, WhatIsSampledIsWhatMisIsTold) {
+  constexpr int kSamples = 400000;
+  std::mt19937_64 random(fresh_seed());
+  auto number = [&] { return std::uniform_real_distribution<float>(0, kOneMinusEpsilon)(random); };
+  for (const Case& c : cases())
+    for (bool transmits : {false, true}) {
+      SCOPED_TRACE(fmt::format("{}, transmits {}", c.name, transmits));
+      const auto scene = RenderScene::build(c.scene.document);
+      LightReference ref;
+      ref.normal = {0, 1, 0};
+      ref.transmits = transmits;
+      // By sampling: the chance of a sample that is accepted and seen, and that of one from behind.
+      RunningStatistics sampled[2], told[2];
+      for (int i = 0; i < kSamples; ++i) {
+        const auto choice = scene->all_lights().choose(ref, number());
+        const vec2 u(number(), number());
+        const auto s = choice ? sample_light(scene->lights()[choice->light], ref, u) : std::nullopt;
+        bool seen = s && ref.accepts(s->direction);
+        if (seen) {
+          const auto hit = scene->geometry().accel().intersect(Ray{ref.position, 0, s->direction, kInfinity});
+          seen = s->infinite ? !hit : hit && std::abs(hit->t - glm::length(s->point)) < 1e-3f;
+        }
+        const bool behind = seen && s->direction.y < 0;
+        sampled[0].add(seen && !behind ? 1 : 0);
+        sampled[1].add(behind ? 1 : 0);
+      }
+      // By the density, over directions of all around.
+      for (int i = 0; i < kSamples; ++i) {
+        const vec3 d = sample_uniform_sphere({number(), number()});
+        const Ray ray{ref.position, 0, d, kInfinity};
+        double density = 0;
+        if (const auto hit = scene->geometry().accel().intersect(ray)) {
+          const Surface surface = scene->geometry().surface(ray, *hit);
+          const std::uint32_t light = scene->light_of(surface.emitter);
+          ASSERT_NE(light, kNoLight);
+          density = static_cast<double>(
+              aimed_pdf(*scene, ref, light, light_pdf(scene->lights()[light], ref, surface.position, d), d));
+        } else {
+          for (std::uint32_t light : scene->infinite_lights())
+            density += static_cast<double>(
+                aimed_pdf(*scene, ref, light, light_pdf(scene->lights()[light], ref, {}, d), d));
+        }
+        const double value = density * 4 * std::numbers::pi;
+        told[0].add(d.y >= 0 ? value : 0);
+        told[1].add(d.y < 0 ? value : 0);
+      }
+      for (int side = 0; side < 2; ++side)
+        EXPECT_GT(z_test(sampled[side], told[side], 1e-5), sidak_threshold(16))
+            << (side == 0 ? "before" : "behind") << ": " << sampled[side].mean() << ", told "
+            << told[side].mean() << "; " << seed_note();
+      if (transmits) { EXPECT_GT(sampled[0].mean() + sampled[1].mean(), 0.5) << "it shows nothing"; }
+      if (!transmits) { EXPECT_EQ(told[1].mean(), 0); }
+    }
+}
+
+} // namespace
+} // namespace candela::test
