@@ -238,7 +238,7 @@ void RenderSession::State::begin_accumulation(std::size_t first_level) {
   render_seconds = 0;
   level = begun_level = first_level;
   spp = 0;
-  schedule.reset(film.width(), film.height(), 1); // the first pass is everywhere
+  schedule.reset({0, 0, film.width(), film.height()}, 1); // the first pass is everywhere
   converged = pass_held = false;
   noise = std::numeric_limits<double>::infinity();
   published_samples = 0;
@@ -322,9 +322,7 @@ void RenderSession::State::render_pass_of(int most_samples) {
   double taken = seconds_between(start, Clock::now());
   render_seconds += taken;
   rays += pass.rays;
-  nonfinite.count += pass.nonfinite.count;
-  for (const NonFiniteSample& s : pass.nonfinite.records)
-    if (nonfinite.records.size() < NonFiniteLog::kMaxRecords) nonfinite.records.push_back(s);
+  nonfinite += pass.nonfinite;
   if (pass.rays.samples > 0 && (waited_for || usual_seconds == 0))
     usual_seconds = taken / static_cast<double>(pass.rays.samples);
   pass_held = !pass.completed;

@@ -4,10 +4,10 @@
 #include "core/progress.h"
 #include "core/recycler.h"
 #include "render/film/render_pass.h"
+#include "render/film/sample_schedule.h"
 #include "session/denoise_thread.h"
 #include "session/geometry_thread.h"
 #include "session/render_session.h"
-#include "session/sample_schedule.h"
 #include "session/urgent_thread.h"
 
 #include <chrono>

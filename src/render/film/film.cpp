@@ -4,13 +4,15 @@
 
 namespace candela {
 
-Film::Film(int width, int height, ivec2 origin)
-    : width_(width), height_(height), origin_(origin),
-      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+Film::Film(int width, int height, ivec2 origin, std::uint32_t first_sample) {
+  resize(width, height, origin, first_sample);
+}
 
-void Film::resize(int width, int height) {
+void Film::resize(int width, int height, ivec2 origin, std::uint32_t first_sample) {
   width_ = width;
   height_ = height;
+  origin_ = origin;
+  first_sample_ = first_sample;
   pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
 }
 
@@ -41,6 +43,28 @@ vec3 Film::variance_of_mean(int x, int y) const {
 
 double Film::relative_variance(int x, int y) const {
   return candela::relative_variance(mean(x, y), variance_of_mean(x, y));
+}
+
+void Film::append(const Film& later) {
+  const ivec2 shift = later.origin_ - origin_;
+  for (int y = 0; y < later.height_; ++y)
+    for (int x = 0; x < later.width_; ++x) {
+      const Pixel& from = later.pixel(x, y);
+      Pixel& to = pixel(x + shift.x, y + shift.y);
+      // After an odd number of samples, the later ones that were first, third, ... are second, fourth, ...
+      vec3 odd = from.odd;
+      if (to.count % 2 == 1)
+        for (int c = 0; c < 3; ++c)
+          odd[c] = static_cast<float>(from.sum[c] - static_cast<double>(from.odd[c]));
+      to.odd += odd;
+      for (int c = 0; c < 3; ++c) {
+        to.sum[c] += from.sum[c];
+        to.sum_of_squares[c] += from.sum_of_squares[c];
+      }
+      to.count += from.count;
+      to.nonfinite += from.nonfinite;
+      to.stopped |= from.stopped;
+    }
 }
 
 Image Film::image() const {

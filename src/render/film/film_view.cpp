@@ -2,6 +2,7 @@
 
 #include "core/color.h"
 #include "imaging/compare.h"
+#include "render/world/render_scene.h"
 
 #include <cassert>
 #include <limits>
@@ -50,6 +51,13 @@ private:
 };
 
 } // namespace
+
+float display_scale(const RenderScene& scene, const RenderSettings& settings) {
+  if (settings.view != View::depth) return 1;
+  Bounds3 bounds = scene.geometry().finite_bounds();
+  float diagonal = bounds.empty() ? 0 : glm::length(bounds.diagonal());
+  return diagonal > 0 ? 1 / diagonal : 1;
+}
 
 void resolve_view(const Film& film, View view, int coarseness, std::vector<vec3>& out) {
   out.resize(pixel_count(film));

@@ -1,7 +1,8 @@
 #pragma once
-// What a film shows: its means, or what it knows of its samples.
+// What a film shows: its means, or statistics of its samples.
 
 #include "render/film/film.h"
+#include "scene/document.h"
 
 #include <algorithm>
 #include <bit>
@@ -11,11 +12,16 @@
 
 namespace candela {
 
+class RenderScene;
+
+/// Factor that makes the view displayable: the depth view is shown relative to the scene's diagonal.
+float display_scale(const RenderScene& scene, const RenderSettings& settings);
+
 /// Fills `out` with the picture of the view, row 0 is the top. The film holds the samples of
 /// accumulated_view(view). The holes of a coarse first pass take the top left pixel of their block.
 /// - depth_share: red, green and blue are the shares of direct light (emitters seen among it), of one bounce
 ///   and of more in the radiance;
-/// - light_share: the share of the light that aiming at lights found, the rest being found by chance;
+/// - light_share: the share of the radiance that light sampling found, the rest being found by BSDF sampling;
 /// - variance: luminance of the variance of one sample; samples, nonfinite: counts;
 /// - others: the mean.
 void resolve_view(const Film& film, View view, int coarseness, std::vector<vec3>& out);
@@ -34,8 +40,8 @@ double estimated_relmse(const Film& film);
 double estimated_relmse(std::span<const vec3> mean, std::span<const vec3> variance_of_mean,
                         std::span<const std::uint32_t> samples);
 
-/// stop.noise is asked only at these sample numbers, so that where a render stops does not depend on how its
-/// passes divide the samples: multiples of 8, and so far apart that asking costs little.
+/// stop.noise is tested only at these sample numbers, so that where a render stops does not depend on how its
+/// passes divide the samples: multiples of 8, and so far apart that testing costs little.
 constexpr int noise_check_step(int spp) {
   return std::max(8, static_cast<int>(std::bit_floor(static_cast<unsigned>(spp))) / 8);
 }

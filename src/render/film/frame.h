@@ -1,6 +1,7 @@
 #pragma once
-// What a render shows of itself: an immutable snapshot that any thread may look at.
+// A snapshot of a render: immutable, for any thread to read.
 
+#include "render/film/nonfinite_log.h"
 #include "render/integrators/ray_counts.h"
 #include "scene/document.h"
 
@@ -9,19 +10,6 @@
 #include <vector>
 
 namespace candela {
-
-/// A sample whose radiance was NaN or infinite; it can be traced again from these numbers alone.
-struct NonFiniteSample {
-  uvec2 pixel{0};
-  std::uint32_t sample = 0;
-  int depth = 0; ///< path segment that made it so
-};
-
-struct NonFiniteLog {
-  static constexpr std::size_t kMaxRecords = 64;
-  std::uint64_t count = 0;
-  std::vector<NonFiniteSample> records; ///< the first kMaxRecords by pixel order of each pass
-};
 
 struct Frame {
   std::uint64_t generation = 0; ///< of the Document that it shows, as RenderSession::submit returned it
@@ -35,10 +23,9 @@ struct Frame {
   /// Per pixel, of the accumulated mean; empty while the first pass is coarse.
   std::vector<vec3> variance;
   std::vector<std::uint32_t> samples; ///< per pixel; empty while coarse
-  float display_scale =
-      1;          ///< multiplies `linear` for display (the depth view is shown relative to the scene)
-  RayCounts rays; ///< of this accumulation
-  double render_seconds = 0;     ///< of this accumulation, waiting excluded
+  float display_scale = 1;            ///< multiplies `linear` for display (film_view.h)
+  RayCounts rays;                     ///< of this accumulation
+  double render_seconds = 0;          ///< of this accumulation, waiting excluded
   double first_pass_seconds = 0; ///< of them, those that gave every pixel its first sample; 0 while coarse
   NonFiniteLog nonfinite;
 };

@@ -1,10 +1,11 @@
 // Every pixel gets every sample index once, whatever regions come and go.
 
-#include "session/sample_schedule.h"
+#include "render/film/sample_schedule.h"
 #include "support/seed.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace candela {
@@ -28,7 +29,7 @@ struct Counter {
 
 TEST(SampleSchedule, OnlyTheRegionIsSampled) {
   SampleSchedule schedule;
-  schedule.reset(kWidth, kHeight, 1);
+  schedule.reset({0, 0, kWidth, kHeight}, 1);
   schedule.set_region({5, 6, 10, 4});
   const SampleSchedule::Job job = schedule.next(8);
   EXPECT_EQ(job.window.x, 5);
@@ -48,7 +49,7 @@ TEST(SampleSchedule, RegionsComeAndGoAndAllIsEvenInTheEnd) {
   SCOPED_TRACE(test::seed_note());
   auto pick = [&](int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(random); };
   SampleSchedule schedule;
-  schedule.reset(kWidth, kHeight, 1);
+  schedule.reset({0, 0, kWidth, kHeight}, 1);
   Counter counter;
   for (int i = 0; i < 60; ++i) {
     schedule.set_region({pick(-9, kWidth), pick(-9, kHeight), pick(0, kWidth), pick(0, kHeight)});

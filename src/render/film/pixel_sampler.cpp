@@ -1,0 +1,142 @@
+#include "render/film/pixel_sampler.h"
+
+#include "render/integrators/ao_integrator.h"
+#include "render/integrators/first_hit_view.h"
+
+namespace candela {
+
+namespace {
+
+PathSample ambient_occlusion_sample(const RenderScene& scene, const Ray& ray, Sampler& sampler,
+                                    const RenderSettings& settings, RayCounts& counts) {
+  PathSample sample;
+  sample.direct = vec3(ambient_occlusion(scene, ray, sampler, settings, counts));
+  return sample;
+}
+
+PathSettings path_settings(const RenderSettings& settings) {
+  PathSettings path = settings.path;
+  if (settings.integrator == Integrator::direct)
+    path.max_depth = path.max_depth < 0 ? 2 : std::min(path.max_depth, 2);
+  return path;
+}
+
+} // namespace
+
+PixelSampler::PixelSampler(const RenderScene& scene, const Document& document, const StopCondition& stop)
+    : stop_(stop), scene_(scene), settings_(document.settings), view_(accumulated_view(settings_.view)),
+      rays_(document), sampler_(PixelRays::sampler(settings_.sampler)),
+      paths_(scene, path_settings(settings_)) {
+  if (scene.has_absorption()) camera_interiors_ = interiors_at(scene, rays_.camera().position());
+}
+
+bool PixelSampler::sample(std::span<const SampleIndex> indices, std::span<PixelSample> results,
+                          RayCounts& counts) {
+  RayCounts made;
+  evaluate(indices, results, made);
+  if (stop_.asked()) return false;
+  made.samples = indices.size();
+  counts += made;
+  return true;
+}
+
+PixelSample PixelSampler::sample(const SampleIndex& index) {
+  PixelSample result;
+  RayCounts ignored;
+  sample({&index, 1}, {&result, 1}, ignored);
+  return result;
+}
+
+void PixelSampler::evaluate(std::span<const SampleIndex> indices, std::span<PixelSample> results,
+                            RayCounts& counts) {
+  start(indices);
+  if (!shows_light()) {
+    view_first_hits(results, counts);
+  } else if (follows_paths()) {
+    parts_.resize(indices.size());
+    if (!paths_.trace(starts_, parts_, counts, stop_)) return;
+    for (std::size_t i = 0; i < indices.size(); ++i) show(parts_[i], results[i]);
+  } else {
+    for (std::size_t i = 0; i < indices.size() && !stop_.asked(); ++i)
+      sample_singly(starts_[i], results[i], counts);
+  }
+  for (std::size_t i = 0; i < indices.size(); ++i) { // as the pixel's filter weighs them
+    if (weights_[i] == 1) continue;                  // always, for most filters
+    results[i].value *= weights_[i];
+    results[i].parts *= weights_[i];
+  }
+}
+
+bool PixelSampler::shows_light() const {
+  return view_ == View::radiance || view_ == View::depth_share || view_ == View::light_share;
+}
+
+bool PixelSampler::follows_paths() const {
+  return settings_.integrator == Integrator::path || settings_.integrator == Integrator::direct;
+}
+
+/// Makes the camera rays.
+void PixelSampler::start(std::span<const SampleIndex> indices) {
+  starts_.resize(indices.size(), {Ray(), sampler_});
+  draws_.clear();
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    starts_[i].sampler.start(indices[i].pixel, indices[i].sample);
+    draws_.push_back({&starts_[i].sampler, 0});
+  }
+  film_.resize(indices.size());
+  lens_.assign(indices.size(), vec2(0));
+  Sampler::get_2d(draws_, Dimension::film, film_);
+  if (rays_.camera().has_lens()) Sampler::get_2d(draws_, Dimension::lens, lens_);
+  weights_.resize(indices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    weights_[i] = rays_.at(indices[i].pixel, film_[i], lens_[i], starts_[i].ray);
+    if (!scene_.has_absorption()) continue;
+    starts_[i].interiors = camera_interiors_;
+    move_between(scene_, rays_.camera().position(), starts_[i].ray.origin, starts_[i].interiors);
+  }
+}
+
+void PixelSampler::view_first_hits(std::span<PixelSample> results, RayCounts& counts) {
+  if (view_ == View::bvh_cost) {
+    for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
+      results[i] = {bvh_cost_value(scene_, starts_[i].ray, counts), {}};
+    return;
+  }
+  camera_rays_.clear();
+  for (const PathStart& start : starts_) camera_rays_.push_back(&start.ray);
+  hits_.resize(starts_.size());
+  scene_.geometry().accel().intersect(camera_rays_, hits_);
+  counts.closest += starts_.size();
+  for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
+    results[i] = {first_hit_value(scene_, starts_[i].ray, hits_[i].t < kInfinity, hits_[i],
+                                  rays_.camera().forward(), view_, starts_[i].sampler, counts),
+                  {}};
+}
+
+/// By an integrator that takes one sample after the other.
+void PixelSampler::sample_singly(PathStart& start, PixelSample& result, RayCounts& counts) {
+  if (settings_.integrator == Integrator::whitted)
+    show(whitted_radiance(scene_, start, start.sampler, settings_.path, direct_light_, counts, stop_),
+         result);
+  else
+    show(ambient_occlusion_sample(scene_, start.ray, start.sampler, settings_, counts), result);
+}
+
+/// The view's value of the light.
+void PixelSampler::show(const PathSample& parts, PixelSample& result) const {
+  result.parts = parts;
+  switch (view_) {
+  case View::depth_share:
+    result.value = {luminance(parts.emitted + parts.direct), luminance(parts.one_bounce),
+                    luminance(parts.more)};
+    break;
+  case View::light_share:
+    result.value = {luminance(parts.aimed), luminance(parts.direct + parts.indirect() - parts.aimed), 0};
+    break;
+  default:
+    result.value = parts.radiance();
+    if (settings_.path.clamp > 0) result.value = glm::min(result.value, settings_.path.clamp);
+  }
+}
+
+} // namespace candela

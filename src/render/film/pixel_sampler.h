@@ -1,0 +1,63 @@
+#pragma once
+// Evaluates samples: from the indices of a pixel and a sample to what the pixel's film is given.
+
+#include "core/stop_condition.h"
+#include "render/camera/pixel_rays.h"
+#include "render/integrators/path_integrator.h"
+#include "render/integrators/whitted_integrator.h"
+
+#include <span>
+
+namespace candela {
+
+struct SampleIndex {
+  uvec2 pixel; ///< of the frame
+  std::uint32_t sample;
+};
+
+/// What one sample adds to its pixel.
+struct PixelSample {
+  vec3 value{0};    ///< of the view
+  PathSample parts; ///< of radiance, for the films of components
+};
+
+/// Many samples at a time; one per thread. The integrator and the view are chosen once a batch.
+class PixelSampler {
+public:
+  /// Refers to the scene and the document, which must outlive it.
+  PixelSampler(const RenderScene& scene, const Document& document, const StopCondition& stop);
+
+  /// results[i] becomes what sample indices[i] adds to its pixel. False, and results of no use, where it was
+  /// asked to stop.
+  bool sample(std::span<const SampleIndex> indices, std::span<PixelSample> results, RayCounts& counts);
+  PixelSample sample(const SampleIndex& index);
+
+private:
+  void evaluate(std::span<const SampleIndex> indices, std::span<PixelSample> results, RayCounts& counts);
+  void start(std::span<const SampleIndex> indices);
+  bool shows_light() const;
+  bool follows_paths() const;
+  void view_first_hits(std::span<PixelSample> results, RayCounts& counts);
+  void sample_singly(PathStart& start, PixelSample& result, RayCounts& counts);
+  void show(const PathSample& parts, PixelSample& result) const;
+
+  StopPoll stop_;
+  const RenderScene& scene_;
+  const RenderSettings& settings_;
+  View view_;
+  PixelRays rays_;
+  Sampler sampler_; ///< of the document's kind
+  PathTracer paths_;
+  DirectLightOfOne direct_light_;
+  Interiors camera_interiors_; ///< in scenes with absorption
+  // Parallel to the samples in flight:
+  std::vector<PathStart> starts_;
+  std::vector<Sampler::Draw> draws_;
+  std::vector<vec2> film_, lens_;
+  std::vector<float> weights_;
+  std::vector<PathSample> parts_;
+  std::vector<const Ray*> camera_rays_;
+  std::vector<Hit> hits_;
+};
+
+} // namespace candela

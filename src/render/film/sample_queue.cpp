@@ -1,0 +1,60 @@
+#include "render/film/sample_queue.h"
+
+#include "render/film/replay.h"
+
+namespace candela {
+
+namespace {
+
+/// Enough that the last, short paths of a batch hardly matter, few enough for the second-level cache.
+constexpr std::size_t kBatch = 256;
+
+} // namespace
+
+SampleQueue::SampleQueue(PixelSampler& sampler, const PassJob& job, const PassFilms& films)
+    : sampler_(sampler), job_(job), films_(films) {
+  indices_.reserve(kBatch);
+  samples_.resize(kBatch);
+}
+
+void SampleQueue::sample_all(const PixelRect& window, SampleRange samples, PassResult& result) {
+  const int step = samples.lattice, skip = samples.skip_lattice;
+  auto up = [&](int v) { return (v + step - 1) / step * step; };
+  for (int y = up(window.y0); y < window.y1; y += step)
+    for (int x = up(window.x0); x < window.x1; x += step) {
+      if (skip > 0 && x % skip == 0 && y % skip == 0) continue;
+      for (std::uint32_t i = samples.begin; i < samples.end && !stopped_; ++i) push({uvec2(x, y), i}, result);
+    }
+  flush(result);
+}
+
+void SampleQueue::push(const SampleIndex& index, PassResult& result) {
+  const ivec2 at = ivec2(index.pixel) - films_.image.origin();
+  if (films_.image.tried(at.x, at.y) > index.sample) return;
+  indices_.push_back(index);
+  if (indices_.size() == kBatch) flush(result);
+}
+
+void SampleQueue::flush(PassResult& result) {
+  if (indices_.empty()) return;
+  stopped_ = stopped_ || !sampler_.sample(indices_, {samples_.data(), indices_.size()}, result.rays);
+  for (std::size_t i = 0; i < indices_.size() && !stopped_; ++i) add(indices_[i], samples_[i], result);
+  indices_.clear();
+}
+
+void SampleQueue::add(const SampleIndex& index, const PixelSample& s, PassResult& result) {
+  const ivec2 at = ivec2(index.pixel) - films_.image.origin();
+  if (!is_finite(s.value)) {
+    films_.image.add_nonfinite(at.x, at.y);
+    // Its depth takes tracing it again, so only that of those that the log keeps is found.
+    const int depth = result.nonfinite.full() ? 0 : nonfinite_depth(job_.scene, job_.document, index);
+    result.nonfinite.add({index.pixel, index.sample, depth});
+    return;
+  }
+  films_.image.add(at.x, at.y, s.value);
+  const vec3 parts[3] = {s.parts.emitted, s.parts.direct, s.parts.indirect()};
+  for (std::size_t c = 0; c < 3; ++c)
+    if (films_.components[c] != nullptr) films_.components[c]->add(at.x, at.y, parts[c]);
+}
+
+} // namespace candela
