@@ -1,10 +1,11 @@
 #pragma once
-// A render from start to finish, as the command line does it: the same passes as the window's, in larger
-// portions.
+// A render from start to finish, as the command line does it: the window's accumulation, in larger passes.
 
 #include "render/film/render_pass.h"
 
+#include <atomic>
 #include <functional>
+#include <memory>
 
 namespace candela {
 
