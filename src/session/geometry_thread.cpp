@@ -58,7 +58,7 @@ void GeometryThread::loop() {
     std::shared_ptr<const Geometry> made;
     bool cancelled = false;
     try {
-      made = Geometry::build(job.instances, job.quality, progress.get(), job.known);
+      made = Geometry::build(*job.instances, job.quality, progress.get(), job.known);
     } catch (const Cancelled&) { cancelled = true; } catch (const std::bad_alloc&) {
     } // what is there stays
     {

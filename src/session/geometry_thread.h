@@ -1,6 +1,6 @@
 #pragma once
-// A thread that builds geometry beside the renderer: what was built fast for a hand that moves something, it
-// builds well, and what a hand is about to move, it makes ready for that.
+// A thread that builds geometry beside the renderer: it builds well what was built fast while the user moved
+// it, and prepares what the user is about to move.
 
 #include "render/world/geometry.h"
 
@@ -14,7 +14,7 @@
 namespace candela {
 
 struct GeometryJob {
-  std::vector<Instance> instances;
+  std::shared_ptr<const std::vector<Instance>> instances;
   BuildQuality quality = BuildQuality::high;
   Geometry::Objects known;
   double delay = 0; ///< seconds before it begins, in which a newer one replaces it at no cost

@@ -1,346 +1,295 @@
-// The render thread: takes Documents, restarts what they change, adds samples.
+#include "session/render_loop.h"
 
 #include "core/error.h"
-#include "render/film/film_view.h"
-#include "session/session_state.h"
 
 #include <new>
-#include <omp.h>
-#include <sys/resource.h>
-#include <unistd.h>
 #include <utility>
 
 namespace candela {
 
-/// libgomp keeps a team for the thread that forks it, as long as the number of threads stays. Its threads
-/// inherit the niceness.
-void RenderSession::State::meet_team(int niceness) {
-  if (niceness > 0) setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), niceness);
-  omp_set_num_threads(options.threads > 0 ? options.threads : omp_get_num_procs()); // one team for all work
-  std::vector<clockid_t> clocks;
-  std::mutex adding;
-#pragma omp parallel
-  {
-    const clockid_t clock = thread_cpu_clock();
-    std::lock_guard lock(adding);
-    clocks.push_back(clock);
-  }
-  std::lock_guard lock(mutex);
-  team_clocks.insert(team_clocks.end(), clocks.begin(), clocks.end());
+namespace {
+
+/// Rendering takes what the window leaves over.
+constexpr int kNiceness = 10;
+/// The first picture after an edit is finished although a newer edit waits, so that there are pictures while
+/// one drags; but only so long.
+constexpr std::chrono::milliseconds kFirstPicturePatience{100};
+/// Of a pass: enough to be worth its synchronisation, little enough to publish often.
+constexpr double kPassSeconds = 0.02;
+/// Side of the coarsest blocks while no sample has been timed.
+constexpr int kUsualLattice = 8;
+
+} // namespace
+
+int coarsest_lattice(double pixels, double seconds_per_sample) {
+  if (seconds_per_sample <= 0) return kUsualLattice;
+  // Finer pictures are worth some waiting, coarser ones only the saving of a lot.
+  constexpr std::pair<int, double> kWorth[] = {{4, 6e-3}, {8, 12e-3}, {16, 30e-3}, {32, 60e-3}, {64, 80e-3}};
+  for (auto [lattice, seconds] : kWorth)
+    if (pixels / (lattice * lattice) * seconds_per_sample <= seconds) return lattice;
+  return 128;
 }
 
-void RenderSession::State::render_loop() {
-  meet_team(kRenderNiceness); // rendering takes what the window leaves over
-  bool active = false;        // something to add samples to
+RenderLoop::RenderLoop(SessionMonitor& monitor, WorkerThreads& workers, Mailbox& mailbox,
+                       SceneBuilder& scenes, Presenter& presenter, const SessionOptions& options)
+    : monitor_(monitor), mailbox_(mailbox), scenes_(scenes), presenter_(presenter),
+      on_publish_(options.on_publish), turns_{options.turns, options.variant}, renderer_(options.threads),
+      urgent_thread_([&workers] { workers.start(0); }), thread_([this, &workers] {
+        workers.start(kNiceness);
+        run();
+      }) {}
+
+void RenderLoop::set_turns(Locked, Turns turns) {
+  if (turns_.turns) turns_.turns->leave(turns_.variant);
+  turns_ = std::move(turns);
+}
+
+/// Something in the mailbox, better geometry, or samples to add.
+bool RenderLoop::has_work(Locked lock) const {
+  return mailbox_.has_document(lock) || mailbox_.has_region(lock) || may_improve(lock) ||
+         (active_ &&
+          (mailbox_.may_render(lock, accumulation_.spp() > 0) || status_.phase != SessionPhase::paused));
+}
+
+/// Better geometry is there, and using it delays nothing that the user waits for.
+bool RenderLoop::may_improve(Locked lock) const {
+  return scenes_.geometry().has_improvement(lock) && !mailbox_.paused(lock) && accumulation_.spp() > 0;
+}
+
+void RenderLoop::run() {
   while (true) {
     {
-      std::unique_lock lock(mutex);
-      auto has_work = [&] {
-        return quit || pending || region_changed || may_improve() ||
-               (active && (may_go_on() || status.phase != SessionPhase::paused));
-      };
-      if (options.turns && (quit || !has_work())) options.turns->leave(options.side); // nobody waits for it
-      changed.wait(lock, has_work);
-      if (quit) return;
+      auto lock = monitor_.lock();
+      auto wakes = [&] { return mailbox_.closed(lock) || has_work(lock); };
+      if (turns_.turns && (mailbox_.closed(lock) || !wakes()))
+        turns_.turns->leave(turns_.variant); // nobody waits for it
+      monitor_.changed.wait(lock, wakes);
+      if (mailbox_.closed(lock)) return;
     }
-    const SessionPhase before = status.phase;
+    const SessionPhase before = status_.phase;
     bool worked = false;
     try {
-      if (!take_pending()) improve();
-      apply_region();
-      if (status.phase == SessionPhase::failed || scene == nullptr) {
-        active = false;
-        continue;
-      }
-      worked = !finished() && begin_pass();
-      if (worked) step();
-      const bool other_view = spp > 0 && published_view != current.settings.view; // of the same samples
-      active = !finished();
-      const bool settled = !active || !goes_on(); // asked once: phase and picture must agree about it
-      if (settled || other_view) samples_to_show = 0;
-      if (other_view) publish(true);
-      if (settled && published_samples != rays.samples) publish(true);
-      feed_denoiser(settled);
-      std::lock_guard lock(mutex);
-      if (active)
-        status.phase = settled ? SessionPhase::paused : SessionPhase::rendering;
-      else if (!pending && !improving())
-        status.phase = SessionPhase::finished;
+      worked = work();
     } catch (const Cancelled&) { // building: a newer Document waits, or the end
-      std::lock_guard lock(mutex);
-      ++status.builds_cancelled;
+      const auto lock = monitor_.lock();
+      ++status_.builds_cancelled;
       continue;
-    } catch (const Error& e) {
-      std::lock_guard lock(mutex);
-      status.phase = SessionPhase::failed;
-      status.error = e.what();
-      active = false;
-    } catch (const std::bad_alloc&) {
-      std::lock_guard lock(mutex);
-      status.phase = SessionPhase::failed;
-      status.error = "scene: out of memory: close other programs or make the scene or the film smaller";
-      active = false;
+    } catch (const Error& e) { fail(e.what()); } catch (const std::bad_alloc&) {
+      fail("scene: out of memory: close other programs or make the scene or the film smaller");
     }
-    changed.notify_all();
+    monitor_.changed.notify_all();
     const bool rests =
-        !active || (status.phase == SessionPhase::paused && (worked || status.phase != before));
-    if (rests && options.on_publish) options.on_publish(); // the phase is news, too
+        !active_ || (status_.phase == SessionPhase::paused && (worked || status_.phase != before));
+    if (rests && on_publish_) on_publish_(); // the phase is news, too
   }
 }
 
-/// Moves the newest Document into `current`, restarting what it must.
-bool RenderSession::State::take_pending() {
-  Invalidates worst;
+/// One turn of the loop; whether a pass was rendered.
+bool RenderLoop::work() {
+  if (!take_document()) improve();
+  apply_region();
+  if (status_.phase == SessionPhase::failed || built_.scene == nullptr) {
+    active_ = false;
+    return false;
+  }
+  const bool worked = !finished() && begin_pass();
+  if (worked) take_turn();
+  const bool other_view = accumulation_.spp() > 0 && !presenter_.is_of_view(current_.settings.view);
+  active_ = !finished();
+  const bool settled = !active_ || !may_render(); // asked once: phase and picture must agree about it
+  if (settled || other_view) presenter_.show_anyway();
+  if (other_view) publish(true); // of the same samples
+  if (settled && !presenter_.is_current(accumulation_.rays().samples)) publish(true);
+  feed_denoiser(settled);
+  const auto lock = monitor_.lock();
+  if (active_)
+    status_.phase = settled ? SessionPhase::paused : SessionPhase::rendering;
+  else if (!mailbox_.has_document(lock) && !scenes_.geometry().improving(lock))
+    status_.phase = SessionPhase::finished;
+  return worked;
+}
+
+void RenderLoop::fail(std::string error) {
+  const auto lock = monitor_.lock();
+  status_.phase = SessionPhase::failed;
+  status_.error = std::move(error);
+  active_ = false;
+}
+
+/// Makes the newest Document the current one, restarting what it must.
+bool RenderLoop::take_document() {
+  bool restarts = false;
   {
-    std::lock_guard lock(mutex);
-    if (!pending) return false;
-    current = std::move(*pending);
-    pending.reset();
-    worst = pending_worst;
-    pending_worst = Invalidates::nothing;
-    stop = false;
-    status.generation = status.submitted;
-    bool restarts = worst >= Invalidates::image || status.phase == SessionPhase::failed;
+    const auto lock = monitor_.lock();
+    auto delivery = mailbox_.take(lock);
+    if (!delivery) return false;
+    current_ = std::move(delivery->document);
+    status_.generation = delivery->generation;
+    restarts = delivery->consequence >= Invalidates::image || status_.phase == SessionPhase::failed;
     if (restarts) {
-      worst = std::max(worst, Invalidates::image);
-      ++status.restarts;
-      status.first_image_ms = -1;
-      status.error.clear();
-      first_image_generation = accumulation = status.generation;
-      first_image_submitted = submitted_at;
-      status.spp = 0;
-      status.rays = {};
-      status.render_seconds = 0;
-      status.progress = 0;
-      status.nonfinite = 0;
-      building = std::make_shared<Progress>();
-      if (quit) building->cancel();
+      const std::uint64_t restart_count = status_.restarts + 1, cancelled = status_.builds_cancelled;
+      status_ = {};
+      status_.generation = generation_ = delivery->generation;
+      status_.restarts = restart_count;
+      status_.builds_cancelled = cancelled;
+      presenter_.await_first_image(lock, generation_, delivery->submitted_at);
+      scenes_.begin(lock);
+      if (mailbox_.closed(lock)) scenes_.cancel(lock);
     }
-    status.phase = worst >= Invalidates::image ? SessionPhase::building : SessionPhase::rendering;
+    status_.phase = restarts ? SessionPhase::building : SessionPhase::rendering;
   }
-  if (worst >= Invalidates::image) restart();
+  if (restarts) restart();
   return true;
 }
 
-bool RenderSession::State::goes_on() const {
-  std::lock_guard lock(mutex);
-  return may_go_on();
+void RenderLoop::restart() {
+  struct End { // also when it is cancelled or fails
+    RenderLoop& loop;
+    ~End() {
+      const auto lock = loop.monitor_.lock();
+      loop.scenes_.end(lock);
+    }
+  } end{*this};
+  std::shared_ptr<const RenderScene> made = scenes_.build(current_);
+  {
+    const auto lock = monitor_.lock();
+    scenes_.adopt(lock, std::move(made), current_);
+    built_ = scenes_.newest(lock);
+    status_.phase = SessionPhase::rendering;
+  }
+  const FilmSettings& size = current_.settings.film;
+  urgent_ = true;
+  presenter_.begin_accumulation(0);
+  accumulation_.restart(
+      size, {.coarsest = coarsest_lattice(static_cast<double>(size.width) * size.height, usual_seconds_),
+             .whole_first_pass = true});
 }
 
-/// Whether there still is to be a pass; from now on, whoever wants it to wait must say so again, and waits
-/// for what has been begun.
-bool RenderSession::State::begin_pass() {
-  std::lock_guard lock(mutex);
-  if (!may_go_on()) return false;
-  hold = false;
-  status.phase = SessionPhase::rendering;
+/// Continues with better geometry of the same instances. The picture that is shown stays until there is one
+/// of as many samples.
+void RenderLoop::improve() {
+  {
+    const auto lock = monitor_.lock();
+    if (!may_improve(lock) || status_.phase == SessionPhase::failed) return;
+  }
+  std::shared_ptr<const RenderScene> made = scenes_.build_improved(current_);
+  if (made == nullptr) return;
+  urgent_ = false;
+  presenter_.begin_accumulation(accumulation_.rays().samples);
+  accumulation_.restart(current_.settings.film, {.whole_first_pass = true});
+  const auto lock = monitor_.lock();
+  scenes_.adopt_improved(lock, std::move(made));
+  built_ = scenes_.newest(lock);
+  status_.phase = SessionPhase::rendering;
+}
+
+void RenderLoop::apply_region() {
+  std::optional<CropWindow> region;
+  {
+    const auto lock = monitor_.lock();
+    region = mailbox_.take_region(lock);
+    if (region && built_.scene && status_.phase != SessionPhase::failed)
+      status_.phase = SessionPhase::rendering;
+  }
+  if (region) accumulation_.set_region(*region);
+}
+
+bool RenderLoop::may_render() const {
+  const auto lock = monitor_.lock();
+  return mailbox_.may_render(lock, accumulation_.spp() > 0);
+}
+
+/// Whether there still is to be a pass.
+bool RenderLoop::begin_pass() {
+  const auto lock = monitor_.lock();
+  if (!mailbox_.may_render(lock, accumulation_.spp() > 0)) return false;
+  mailbox_.begin_pass(lock);
+  status_.phase = SessionPhase::rendering;
   return true;
 }
 
-/// When the pass that begins now is to end early. `may_wait`: it may be held and go on later; those of many
-/// samples are short, and left in their middle they would put pixels far ahead of others.
-StopCondition RenderSession::State::stop_condition(bool waited_for, bool may_wait) const {
-  StopCondition condition(quitting);
-  if (waited_for) return condition.when(stop, Clock::now() + kFirstPicturePatience);
-  condition.when(stop);
-  if (may_wait) condition.when(hold);
-  const auto limit = static_cast<double>(current.settings.stop.time);
-  if (limit > 0 && spp > 0)
-    condition.at(Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                    std::chrono::duration<double>(std::min(limit - render_seconds, 1e9))));
+/// Renders a pass when it is this session's turn.
+void RenderLoop::take_turn() {
+  Turns with;
+  {
+    const auto lock = monitor_.lock();
+    with = turns_;
+  }
+  // The user waits for the coarsest image: it yields to nobody, nor to a newer edit.
+  const bool urgent = accumulation_.at_coarsest() && urgent_;
+  if (!with.turns) {
+    render(0, urgent);
+    return;
+  }
+  const auto turn =
+      with.turns->begin(with.variant, {accumulation_.samples_per_pixel(), accumulation_.seconds()},
+                        urgent ? mailbox_.closing() : mailbox_.outdated());
+  if (!turn.granted) return;
+  struct End { // also when memory runs out
+    const Turns& with;
+    ~End() { with.turns->end(with.variant); }
+  } end{with};
+  render(turn.most_samples, urgent);
+}
+
+/// `most_samples` a pixel; 0: no limit.
+void RenderLoop::render(int most_samples, bool urgent) {
+  if (urgent)
+    urgent_thread_.run([&] { render_pass(most_samples, true); });
+  else
+    render_pass(most_samples, false);
+}
+
+/// When the pass is to end early. One that is held is continued later; those of many samples are short, and
+/// left in their middle they would put pixels far ahead of others.
+StopCondition RenderLoop::stop_condition(const Accumulation::Pass& pass, bool urgent) const {
+  StopCondition condition(mailbox_.closing());
+  if (urgent) return condition.when(mailbox_.outdated(), Mailbox::Clock::now() + kFirstPicturePatience);
+  condition.when(mailbox_.outdated());
+  if (pass.range.end - pass.range.begin == 1) condition.when(mailbox_.hold());
   return condition;
 }
 
-/// Whether this pass is one that step() asked for.
-bool RenderSession::State::take_step() {
-  std::lock_guard lock(mutex);
-  if (steps_wanted == 0) return false;
-  --steps_wanted;
-  status.phase = SessionPhase::rendering;
-  return true;
-}
-
-void RenderSession::State::apply_region() {
-  CropWindow wanted;
-  {
-    std::lock_guard lock(mutex);
-    if (!region_changed) return;
-    region_changed = false;
-    wanted = region;
-    if (scene && status.phase != SessionPhase::failed) status.phase = SessionPhase::rendering;
-  }
-  schedule.set_region(wanted);
-  converged = false; // within another region
-  if (spp > 0) spp = static_cast<int>(schedule.samples());
-}
-
-/// Seconds after the last edit of geometry: nobody waits for the better one, and each step of a drag would
-/// begin to build it in vain.
-constexpr double kHandRests = 0.3;
-
-std::size_t first_level(double pixels, double seconds_per_sample) {
-  if (seconds_per_sample <= 0) return kUsualLevel;
-  // Finer pictures are worth some waiting, coarser ones only the saving of a lot.
-  constexpr std::pair<std::size_t, double> kWorth[] = {
-      {5, 6e-3}, {4, 12e-3}, {3, 30e-3}, {2, 60e-3}, {1, 80e-3}};
-  for (auto [level, seconds] : kWorth)
-    if (pixels / (kCoarseLevels[level] * kCoarseLevels[level]) * seconds_per_sample <= seconds) return level;
-  return 0;
-}
-
-void RenderSession::State::restart() {
-  // Materials and lights are made anew, which is quick; the geometry stays where the instances stay.
-  struct End { // also when it is cancelled or fails
-    State& state;
-    ~End() {
-      std::lock_guard lock(state.mutex);
-      state.building.reset();
-    }
-  } end{*this};
-  const std::shared_ptr<const RenderScene> previous = scene ? scene : options.geometry_of;
-  const std::vector<Instance>& instances = current.scene.instances;
-  std::shared_ptr<const Geometry> geometry = geometry_for(instances, previous.get());
-  std::shared_ptr<Progress> progress;
-  {
-    std::lock_guard lock(mutex);
-    progress = building;
-  }
-  if (previous == nullptr || geometry != previous->shared_geometry())
-    unused = Improvement{instances, geometry};
-  auto made = RenderScene::build(current, geometry, previous.get(), progress.get());
-  unused.reset();
-  const bool is_new = scene == nullptr || scene->shared_geometry() != geometry;
-  {
-    std::lock_guard lock(mutex);
-    scene = std::move(made);
-    scene_document = std::make_shared<const Document>(current);
-    status.phase = SessionPhase::rendering;
-    if (is_new) {
-      improvement.reset();
-      keep_objects(*geometry, instances);
-      stays_fast = false;
-      if (geometry->quality() == BuildQuality::fast)
-        geometry_thread.post({instances, BuildQuality::high, objects, kHandRests});
-      else
-        geometry_thread.cancel();
+void RenderLoop::render_pass(int most_samples, bool urgent) {
+  Portion portion{kPassSeconds, most_samples};
+  if (accumulation_.spp() > 0) {
+    const auto lock = monitor_.lock();
+    if (mailbox_.take_step(lock)) {
+      portion.most_samples = 1;
+      status_.phase = SessionPhase::rendering;
     }
   }
-  const FilmSettings& size = current.settings.film;
-  film.resize(size.width, size.height);
-  samples_to_show = 0;
-  urgent_first = true;
-  begin_accumulation(first_level(static_cast<double>(size.width) * size.height, usual_seconds));
-}
-
-void RenderSession::State::begin_accumulation(std::size_t first_level) {
-  rays = {};
-  nonfinite = {};
-  render_seconds = 0;
-  level = begun_level = first_level;
-  spp = 0;
-  schedule.reset({0, 0, film.width(), film.height()}, 1); // the first pass is everywhere
-  converged = pass_held = false;
-  noise = std::numeric_limits<double>::infinity();
-  published_samples = 0;
-  denoised_samples = 0;
-  seconds_per_sample = 0;
-}
-
-bool RenderSession::State::finished() const {
-  const StopSettings& until = current.settings.stop;
-  if (spp == 0) return false;
-  return converged || (until.noise > 0 && noise <= static_cast<double>(until.noise)) ||
-         (until.spp > 0 && spp >= until.spp && !pass_held) ||
-         (until.time > 0 && render_seconds >= static_cast<double>(until.time));
-}
-
-/// Renders a portion, when it is this session's turn.
-void RenderSession::State::step() {
-  std::shared_ptr<RenderTurns> turns;
-  int side = 0;
-  {
-    std::lock_guard lock(mutex);
-    turns = options.turns;
-    side = options.side;
-  }
-  if (!turns) {
-    render_portion(0);
-    return;
-  }
-  const double samples = spp > 0 ? spp : static_cast<double>(level - begun_level) / std::size(kCoarseLevels);
-  // Like the pass itself, the turn of the coarsest image is never given up for a newer edit.
-  const bool waited_for = level == begun_level && urgent_first;
-  const auto turn = turns->begin(side, {samples, render_seconds}, waited_for ? quitting : stop);
-  if (!turn.granted) return;
-  struct End { // also when memory runs out
-    RenderTurns& turns;
-    int side;
-    ~End() { turns.end(side); }
-  } end{*turns, side};
-  render_portion(turn.most_samples);
-}
-
-/// `most_samples` a pixel; 0: as many as are worth it.
-void RenderSession::State::render_portion(int most_samples) {
-  if (level == begun_level && urgent_first)
-    urgent.run([&] { render_pass_of(most_samples); });
-  else
-    render_pass_of(most_samples);
-}
-
-void RenderSession::State::render_pass_of(int most_samples) {
-  PassOptions pass_options;
-  pass_options.threads = options.threads;
-  SampleRange range;
-  SampleSchedule::Job job;
-  const bool coarse = level < std::size(kCoarseLevels), first = level == begun_level,
-             waited_for = first && urgent_first;
-  if (coarse) {
-    range.lattice = kCoarseLevels[level];
-    range.skip_lattice = first ? 0 : kCoarseLevels[level - 1];
-    film.clear(range.lattice,
-               range.skip_lattice); // of the image before; all at once would keep a hand waiting
-  } else {
-    // Enough samples a pass to be worth its synchronisation, few enough to publish often.
-    job = schedule.next(1);
-    const double pixels = static_cast<double>(job.window.width) * job.window.height;
-    int portion = 1;
-    if (!take_step() && seconds_per_sample > 0)
-      portion = static_cast<int>(std::clamp(0.02 / (seconds_per_sample * pixels), 1.0, 64.0));
-    if (most_samples > 0) portion = std::min(portion, most_samples);
-    if (current.settings.stop.spp > 0) portion = std::min(portion, current.settings.stop.spp - spp);
-    if (current.settings.stop.noise > 0) portion = std::min(portion, next_noise_check(spp) - spp);
-    job = schedule.next(static_cast<std::uint32_t>(portion));
-    range.begin = job.begin;
-    range.end = job.end;
-    pass_options.crop = job.window;
-  }
-  auto start = Clock::now();
-  const bool continued = std::exchange(pass_held, false);
-  PassResult pass = render_pass(*scene, current, range, film,
-                                stop_condition(waited_for, range.end - range.begin == 1), pass_options);
-  double taken = seconds_between(start, Clock::now());
-  render_seconds += taken;
-  rays += pass.rays;
-  nonfinite += pass.nonfinite;
-  if (pass.rays.samples > 0 && (waited_for || usual_seconds == 0))
-    usual_seconds = taken / static_cast<double>(pass.rays.samples);
-  pass_held = !pass.completed;
-  if (!pass.completed) return;
-  if (coarse) {
-    ++level;
-    if (level == std::size(kCoarseLevels)) spp = 1, first_pass_seconds = render_seconds;
-    if (waited_for || !stop) publish(true); // a newer edit waits
-  } else {
-    if (!continued) // or it was a part of a pass
-      seconds_per_sample =
-          taken / (static_cast<double>(job.end - job.begin) * job.window.width * job.window.height);
-    schedule.done(job);
-    spp = static_cast<int>(schedule.samples());
-    converged = pass.converged && current.settings.adaptive.error > 0;
-    if (current.settings.stop.noise > 0 && is_noise_check(spp)) noise = std::sqrt(estimated_relmse(film));
+  const Accumulation::Pass pass = accumulation_.next(current_.settings.stop, portion);
+  const Accumulation::Step step =
+      accumulation_.step(pass, renderer_, *built_.scene, current_, stop_condition(pass, urgent));
+  if (step.rays.samples > 0 && (urgent || usual_seconds_ == 0))
+    usual_seconds_ = step.seconds / static_cast<double>(step.rays.samples);
+  if (!step.completed) return;
+  if (!pass.first)
     publish(false);
-  }
+  else if (urgent || !mailbox_.outdated()) // else a newer edit waits
+    publish(true);
+}
+
+Presenter::Source RenderLoop::source() const { return {generation_, accumulation_, built_, current_}; }
+
+void RenderLoop::publish(bool force) {
+  auto snapshot = presenter_.snapshot(source(), force);
+  const auto lock = monitor_.lock();
+  presenter_.show(lock, std::move(snapshot));
+  status_.spp = accumulation_.spp();
+  status_.rays = accumulation_.rays();
+  status_.render_seconds = accumulation_.seconds();
+  status_.nonfinite = accumulation_.nonfinite().count;
+  status_.progress = accumulation_.fraction(current_.settings.stop);
+  monitor_.changed.notify_all();
+}
+
+void RenderLoop::feed_denoiser(bool settled) {
+  auto job = presenter_.denoise_job(source(), settled);
+  if (!job) return;
+  const auto lock = monitor_.lock();
+  if (!mailbox_.has_restart(lock)) job = presenter_.denoise(lock, std::move(job)); // else it is out of date
 }
 
 } // namespace candela

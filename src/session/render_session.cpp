@@ -2,126 +2,90 @@
 
 #include "session/session_state.h"
 
-#include <ctime>
-#include <omp.h>
-
 namespace candela {
 
-namespace {
-
-/// 0 for a thread that has ended.
-double cpu_seconds(clockid_t clock) {
-  timespec time{};
-  if (clock_gettime(clock, &time) != 0) return 0;
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-} // namespace
-
-RenderSession::RenderSession(SessionOptions options) : state_(std::make_unique<State>(std::move(options))) {}
+RenderSession::RenderSession(SessionOptions options) : state_(std::make_unique<State>(options)) {}
 RenderSession::~RenderSession() = default;
 
 std::uint64_t RenderSession::submit(Document document) {
   State& s = *state_;
-  std::uint64_t generation;
-  std::unique_ptr<DenoiseJob> dropped;
-  std::shared_ptr<RenderTurns> turns;
+  Mailbox::Receipt receipt;
+  RenderLoop::Turns turns;
+  std::unique_ptr<DenoiseJob> dropped; // freed without the lock
   {
-    std::lock_guard lock(s.mutex);
-    turns = s.options.turns;
-    Invalidates consequence =
-        s.status.submitted == 0 ? Invalidates::scene : compare_documents(s.newest, document);
-    if (s.building && is_built_anew(s.newest.scene, document.scene)) s.building->cancel();
-    s.newest = document;
-    s.pending = std::move(document);
-    s.pending_worst = std::max(s.pending_worst, consequence);
-    if (consequence >= Invalidates::image) {
-      s.submitted_at = Clock::now();
-      s.stop = true;
-      dropped = s.denoiser.cancel();
-      s.status.denoise_error.clear();
-    }
-    generation = ++s.status.submitted;
-    if (consequence >= Invalidates::image) s.status.restarting = generation;
+    const auto lock = s.monitor.lock();
+    if (s.scenes.is_building(lock) && is_built_anew(s.mailbox.newest(lock).scene, document.scene))
+      s.scenes.cancel(lock);
+    s.presenter.set_display(lock, document.settings.display);
+    receipt = s.mailbox.submit(lock, std::move(document));
+    if (receipt.restarts) dropped = s.presenter.outdate(lock);
+    turns = s.renderer.turns(lock);
   }
-  s.changed.notify_all();
-  if (turns) turns->wake();
-  return generation;
+  s.monitor.changed.notify_all();
+  if (turns.turns) turns.turns->wake();
+  return receipt.generation;
 }
 
 void RenderSession::expect_moves() {
-  const std::shared_ptr<const RenderScene> newest = scene();
-  if (newest == nullptr || newest->geometry().quality() == BuildQuality::fast) return;
-  GeometryJob job{newest->instances(), BuildQuality::fast, {}, 0};
-  State& s = *state_;
-  std::lock_guard lock(s.mutex);
-  if (s.scene != newest) return; // an edit was quicker
-  job.known = s.objects;
-  s.geometry_thread.post(std::move(job));
+  const auto lock = state_->monitor.lock();
+  state_->scenes.geometry().prepare_moves(lock);
 }
 
 void RenderSession::pause(bool paused) {
-  State& s = *state_;
   {
-    std::lock_guard lock(s.mutex);
-    s.paused = paused;
-    s.steps_wanted = 0;
-    if (paused) s.hold = true;
+    const auto lock = state_->monitor.lock();
+    state_->mailbox.pause(lock, paused);
   }
-  s.changed.notify_all();
+  state_->monitor.changed.notify_all();
 }
 
 void RenderSession::step() {
-  State& s = *state_;
   {
-    std::lock_guard lock(s.mutex);
-    s.paused = true;
-    ++s.steps_wanted;
+    const auto lock = state_->monitor.lock();
+    state_->mailbox.step(lock);
   }
-  s.changed.notify_all();
+  state_->monitor.changed.notify_all();
 }
 
 void RenderSession::set_region(const CropWindow& region) {
-  State& s = *state_;
   {
-    std::lock_guard lock(s.mutex);
-    s.region = region;
-    s.region_changed = s.hold = true;
+    const auto lock = state_->monitor.lock();
+    state_->mailbox.set_region(lock, region);
   }
-  s.changed.notify_all();
+  state_->monitor.changed.notify_all();
 }
 
-void RenderSession::publish_every(double seconds) { state_->publish_interval = seconds; }
+void RenderSession::publish_every(double seconds) { state_->presenter.publish_every(seconds); }
 
-void RenderSession::take_turns(std::shared_ptr<RenderTurns> turns, int side) {
+void RenderSession::take_turns(std::shared_ptr<RenderTurns> turns, int variant) {
   {
-    std::lock_guard lock(state_->mutex);
-    if (state_->options.turns) state_->options.turns->leave(state_->options.side);
-    state_->options.turns = std::move(turns);
-    state_->options.side = side;
+    const auto lock = state_->monitor.lock();
+    state_->renderer.set_turns(lock, {std::move(turns), variant});
   }
-  state_->changed.notify_all();
+  state_->monitor.changed.notify_all();
 }
 
-std::shared_ptr<const RenderScene> RenderSession::scene() const {
-  std::lock_guard lock(state_->mutex);
-  return state_->scene;
-}
+std::shared_ptr<const RenderScene> RenderSession::scene() const { return built().scene; }
 
 std::shared_ptr<const Frame> RenderSession::latest() const {
-  std::lock_guard lock(state_->mutex);
-  return state_->frame;
+  const auto lock = state_->monitor.lock();
+  return state_->presenter.frame(lock);
 }
 
 std::shared_ptr<const DisplayImage> RenderSession::display() const {
-  std::lock_guard lock(state_->mutex);
-  return state_->picture;
+  const auto lock = state_->monitor.lock();
+  return state_->presenter.picture(lock);
 }
 
 SessionStatus RenderSession::status() const {
-  std::lock_guard lock(state_->mutex);
-  SessionStatus status = state_->status;
-  status.built = state_->building ? state_->building->share() : 0;
+  const State& s = *state_;
+  const auto lock = s.monitor.lock();
+  SessionStatus status = s.renderer.status(lock);
+  status.submitted = s.mailbox.submitted(lock);
+  status.restarting = s.mailbox.restarting(lock);
+  status.built = s.scenes.built_share(lock);
+  status.first_image_ms = s.presenter.first_image_ms(lock);
+  status.denoise_error = s.presenter.denoise_error(lock);
   return status;
 }
 
@@ -131,40 +95,29 @@ std::optional<Pick> RenderSession::pick(vec2 film_position) const {
 }
 
 RenderSession::Built RenderSession::built() const {
-  std::lock_guard lock(state_->mutex);
-  return {state_->scene, state_->scene_document};
+  const auto lock = state_->monitor.lock();
+  const SceneBuilder::Built newest = state_->scenes.newest(lock);
+  return {newest.scene, newest.document};
 }
 
 RenderSession::CpuTime RenderSession::cpu_time() const {
-  std::lock_guard lock(state_->mutex);
-  CpuTime time;
-  for (clockid_t clock : state_->team_clocks) time.render += cpu_seconds(clock);
-  if (state_->presenter_clock) time.present = cpu_seconds(*state_->presenter_clock);
-  return time;
+  const auto lock = state_->monitor.lock();
+  return {state_->workers.cpu_seconds(), state_->presenter.cpu_seconds(lock)};
 }
 
-int RenderSession::threads() const {
-  const int wanted = state_->options.threads;
-  return wanted > 0 ? wanted : omp_get_num_procs();
-}
+int RenderSession::threads() const { return state_->workers.count(); }
 
 bool RenderSession::wait_finished(double seconds) const {
-  State& s = *state_;
-  std::unique_lock lock(s.mutex);
-  return s.changed.wait_for(lock, std::chrono::duration<double>(seconds), [&] {
-    if (s.status.generation != s.status.submitted || s.pending) return false;
-    if (s.status.phase == SessionPhase::failed) return true;
-    if (s.region_changed || (s.paused && s.steps_wanted > 0)) return false;
-    const bool still =
-        s.status.phase == SessionPhase::finished || (s.status.phase == SessionPhase::paused && s.paused);
-    if (!still || !s.picture || s.picture->frame != s.frame ||
-        s.picture->display != s.newest.settings.display)
-      return false;
-    if (!s.newest.settings.display.denoise || s.frame->view != View::radiance || s.frame->spp < 2 ||
-        !s.status.denoise_error.empty())
-      return true;
-    return s.picture->denoised && s.picture->denoised->accumulation == s.frame->generation &&
-           s.picture->denoised->samples == s.status.rays.samples;
+  const State& s = *state_;
+  auto lock = s.monitor.lock();
+  return s.monitor.changed.wait_for(lock, std::chrono::duration<double>(seconds), [&] {
+    const SessionStatus& status = s.renderer.status(lock);
+    if (status.generation != s.mailbox.submitted(lock) || s.mailbox.has_document(lock)) return false;
+    if (status.phase == SessionPhase::failed) return true;
+    if (s.mailbox.has_region(lock) || s.mailbox.has_step(lock)) return false;
+    const bool rests = status.phase == SessionPhase::finished ||
+                       (status.phase == SessionPhase::paused && s.mailbox.paused(lock));
+    return rests && s.presenter.shows_newest(lock, status.rays.samples);
   });
 }
 

@@ -1,14 +1,11 @@
 #pragma once
-// The interactive engine: the only owner of the render thread. The UI submits Documents and looks at what is
-// newest; no call of it ever waits for rendering.
+// The interactive engine: the only owner of the render thread. The UI submits Documents and reads what is
+// newest; no call of it waits for rendering.
 
 #include "core/progress.h"
-#include "imaging/display_transform.h"
 #include "render/camera/picking.h"
-#include "render/film/frame.h"
 #include "render/film/render_pass.h"
-#include "render/world/render_scene.h"
-#include "session/denoise_thread.h"
+#include "session/display_image.h"
 #include "session/render_turns.h"
 
 #include <functional>
@@ -29,28 +26,14 @@ struct SessionStatus {
   int spp = 0;                  ///< complete passes of this accumulation
   RayCounts rays;               ///< of this accumulation
   double render_seconds = 0;    ///< of this accumulation
-  double first_image_ms =
-      0;            ///< from the last restarting submit() to its first published image; < 0: not there yet
-  double built = 0; ///< 0..1: how far building is; while phase is building
+  /// Input latency: from the last restarting submit() to its first published image; < 0: not there yet.
+  double first_image_ms = 0;
+  double built = 0;                   ///< 0..1: how far building is; while phase is building
   std::uint64_t builds_cancelled = 0; ///< since the session began: a newer Document had other geometry
   double progress = 0;                ///< 0..1 towards the nearest stopping criterion; 0 where there is none
   std::uint64_t nonfinite = 0;        ///< NaN or infinite samples of this accumulation
   std::string error;                  ///< why phase is failed
   std::string denoise_error;          ///< why the last attempt to denoise this accumulation made no picture
-};
-
-/// A tone-mapped picture, ready for glTexImage2D as RGBA8.
-struct DisplayImage {
-  std::shared_ptr<const Frame> frame;            ///< what it was made from ...
-  std::shared_ptr<const DenoisedImage> denoised; ///< ... or this one of the same accumulation, if not null
-  DisplaySettings display;                       ///< and how
-  DisplayTransform transform;                    ///< what they came to for this frame
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> rgba; ///< row 0 is the top
-
-  /// What was tone-mapped.
-  const std::vector<vec3>& linear() const { return denoised ? denoised->linear : frame->linear; }
 };
 
 struct SessionOptions {
@@ -61,7 +44,7 @@ struct SessionOptions {
   double min_publish_interval =
       1 / 30.0; ///< see publish_every(); seconds between pictures once the first full one is shown
   std::shared_ptr<RenderTurns> turns = {}; ///< taken with other sessions; null: alone on the machine
-  int side = 0;                            ///< which one this is
+  int variant = 0;                         ///< which one of them this is
   std::shared_ptr<const RenderScene> geometry_of = {}; ///< reused where the instances are the same
 };
 
@@ -82,8 +65,8 @@ public:
   /// Objects may be moved soon: makes ready for it.
   void expect_moves();
 
-  /// While paused nothing accumulates; edits still show their first pass. The pass in flight goes on
-  /// afterwards where it is left.
+  /// While paused nothing accumulates; edits still show their first pass. The pass in flight is continued
+  /// afterwards.
   void pause(bool paused);
   /// One sample for every pixel that accumulates, then a pause.
   void step();
@@ -96,7 +79,7 @@ public:
   void publish_every(double seconds);
 
   /// Takes turns from now on; null: no longer.
-  void take_turns(std::shared_ptr<RenderTurns> turns, int side);
+  void take_turns(std::shared_ptr<RenderTurns> turns, int variant);
 
   /// Newest that was built; null before.
   std::shared_ptr<const RenderScene> scene() const;
@@ -107,7 +90,7 @@ public:
 
   /// CPU time since the session began, seconds.
   struct CpuTime {
-    double render = 0;  ///< the render thread and its team: building, passes, snapshots of the film
+    double render = 0;  ///< threads that compute, with their workers: building, passes, snapshots of the film
     double present = 0; ///< the thread that makes pictures of the snapshots
   };
   CpuTime cpu_time() const;

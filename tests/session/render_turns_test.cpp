@@ -111,7 +111,7 @@ TEST(RenderTurnsRender, SessionsStayLevelAndGiveTheSamePictures) {
   options.turns = turns;
   RenderSession first(options);
   first.submit(a);
-  options.side = 1;
+  options.variant = 1;
   options.geometry_of = first.scene();
   RenderSession second(options);
   second.submit(b);
@@ -140,7 +140,7 @@ TEST(RenderTurnsRender, EditsDoNotWaitForTheOther) {
   options.threads = 2;
   options.turns = turns;
   RenderSession first(options);
-  options.side = 1;
+  options.variant = 1;
   auto second = std::make_unique<RenderSession>(options);
   first.submit(scene.document);
   second->submit(scene.document);

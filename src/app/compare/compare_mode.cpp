@@ -71,7 +71,7 @@ void CompareMode::begin(CompareState& state, const Edited& edited, EditState now
   session.threads = options_.threads;
   session.on_publish = options_.wake;
   session.turns = turns_;
-  session.side = 1;
+  session.variant = 1;
   session.geometry_of = edited.session->scene();
   other_ = {edited.document, std::make_unique<RenderSession>(std::move(session)), {}};
   other_.history.reset(std::move(now));
@@ -188,7 +188,7 @@ void CompareMode::render_reference(const CompareState& state, const Edited& edit
   options.threads = options_.threads;
   options.on_publish = options_.wake;
   options.turns = turns_;
-  options.side = 2;
+  options.variant = 2;
   options.geometry_of = session(state, edited, 0).scene();
   reference_session_ = std::make_unique<RenderSession>(std::move(options));
   reference_session_->submit(std::move(document));

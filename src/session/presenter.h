@@ -1,0 +1,108 @@
+#pragma once
+// From the accumulation to the screen: snapshots, their denoised images, and the pictures made of either.
+
+#include "core/recycler.h"
+#include "render/film/accumulation.h"
+#include "session/display_image.h"
+#include "session/scene_builder.h"
+
+#include <functional>
+#include <thread>
+
+namespace candela {
+
+/// Three threads meet here: the render thread makes snapshots (its own members are named so), a thread
+/// denoises them, another one tone-maps what is newest. Their results are guarded by the session's mutex.
+class Presenter {
+public:
+  using Clock = std::chrono::steady_clock;
+  using OnPublish = std::function<void()>;
+
+  /// `interval`: see publish_every(). `on_publish` is called from one of the threads when there is something
+  /// new to show; may be empty.
+  Presenter(SessionMonitor& monitor, int threads, double interval, OnPublish on_publish);
+
+  void set_display(Locked, const DisplaySettings& display) { display_ = display; }
+  /// The newest snapshots are out of date. Returns what waits for the denoiser, to be freed without the lock.
+  std::unique_ptr<DenoiseJob> outdate(Locked);
+  /// Pictures need come no more often, but for the first ones: each costs the renderer. Seconds.
+  void publish_every(double seconds) { interval_ = seconds; }
+  void close(Locked) { closed_ = true; }
+
+  std::shared_ptr<const Frame> frame(Locked) const { return frame_; }            ///< null before the first
+  std::shared_ptr<const DisplayImage> picture(Locked) const { return picture_; } ///< null before the first
+  double first_image_ms(Locked) const { return first_image_ms_; }
+  const std::string& denoise_error(Locked) const { return denoise_error_; }
+  double cpu_seconds(Locked) const; ///< of the thread that makes pictures
+  /// The newest snapshot is shown as set_display() wants it, denoised from this many samples if that is
+  /// wanted.
+  bool shows_newest(Locked, std::uint64_t samples) const;
+
+  // --- The render thread's ---
+
+  /// What a snapshot shows.
+  struct Source {
+    std::uint64_t generation = 0; ///< of the Document that began the accumulation
+    const Accumulation& accumulation;
+    const SceneBuilder::Built& built;
+    const Document& document; ///< newest
+  };
+  /// A Document submitted at that time restarts the accumulation.
+  void await_first_image(Locked, std::uint64_t generation, Clock::time_point submitted);
+  /// Another accumulation begins. Until it has `keep_until` samples the picture that is shown stays.
+  void begin_accumulation(std::uint64_t keep_until);
+  void show_anyway() { keep_until_ = 0; }
+  /// A snapshot, null while none is due: between full images it is taken only so often that copying costs
+  /// little, unless it is forced.
+  std::shared_ptr<const Frame> snapshot(const Source& source, bool force);
+  void show(Locked, std::shared_ptr<const Frame> snapshot) {
+    if (snapshot) frame_ = std::move(snapshot);
+  }
+  /// The newest snapshot has all samples, of this view.
+  bool is_current(std::uint64_t samples) const { return published_samples_ == samples; }
+  bool is_of_view(View view) const { return published_view_ == view; }
+  /// Something to denoise; null while nothing is due. That is whenever the samples have doubled, which costs
+  /// the render thread ever less, and when no more come.
+  std::unique_ptr<DenoiseJob> denoise_job(const Source& source, bool settled);
+  /// Returns the job that was replaced.
+  std::unique_ptr<DenoiseJob> denoise(Locked, std::unique_ptr<DenoiseJob> job);
+
+private:
+  bool denoises(const Frame& frame) const { return display_.denoise && frame.view == View::radiance; }
+  std::shared_ptr<const DenoisedImage> denoised_to_show() const;
+  void receive(std::shared_ptr<const DenoisedImage> made);
+  void receive_error(std::string why);
+  void run();
+
+  SessionMonitor& monitor_;
+  OnPublish on_publish_;
+  std::atomic<double> interval_;
+
+  // Guarded.
+  DisplaySettings display_;
+  std::shared_ptr<const Frame> frame_;
+  std::shared_ptr<const DisplayImage> picture_;
+  std::shared_ptr<const DenoisedImage> denoised_; ///< newest, of any accumulation
+  std::string denoise_error_;
+  std::uint64_t awaited_ = 0;           ///< generation whose first image is still to come; 0: none
+  Clock::time_point awaited_submitted_; ///< when it was submitted
+  double first_image_ms_ = 0;
+  std::optional<clockid_t> clock_;
+  bool closed_ = false;
+
+  // The render thread's.
+  Recycler<Frame> frames_;
+  std::uint64_t published_samples_ =
+      0; ///< camera paths in the newest snapshot: spp may come to the same twice
+  View published_view_ = View::radiance;
+  Clock::time_point published_at_;
+  double publish_cost_ = 0;            ///< of the newest snapshot, seconds
+  std::uint64_t keep_until_ = 0;       ///< pictures of fewer samples would be worse than the one shown
+  std::uint64_t denoised_samples_ = 0; ///< in the newest job for the denoiser; 0: there is none
+
+  // Last: they use the rest.
+  DenoiseThread denoiser_;
+  std::jthread thread_;
+};
+
+} // namespace candela

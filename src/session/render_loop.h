@@ -1,0 +1,84 @@
+#pragma once
+// The render thread: takes Documents, restarts what they change, adds samples.
+
+#include "render/film/accumulation.h"
+#include "render/film/cpu_pass_renderer.h"
+#include "session/mailbox.h"
+#include "session/presenter.h"
+#include "session/render_session.h"
+#include "session/render_turns.h"
+#include "session/scene_builder.h"
+#include "session/urgent_thread.h"
+
+#include <thread>
+
+namespace candela {
+
+/// Side of the coarsest blocks of a first pass over so many pixels, so that a picture of it is there soon; a
+/// power of two. `seconds_per_sample` of one pixel; 0: not known.
+int coarsest_lattice(double pixels, double seconds_per_sample);
+
+class RenderLoop {
+public:
+  /// Starts the thread, which uses the other parts of the session; they must outlive it.
+  RenderLoop(SessionMonitor& monitor, WorkerThreads& workers, Mailbox& mailbox, SceneBuilder& scenes,
+             Presenter& presenter, const SessionOptions& options);
+
+  /// What the render thread says of itself, without what the other parts of the session know.
+  const SessionStatus& status(Locked) const { return status_; }
+
+  struct Turns { ///< with other sessions; null: alone on the machine
+    std::shared_ptr<RenderTurns> turns;
+    int variant = 0; ///< which one this session is
+  };
+  Turns turns(Locked) const { return turns_; }
+  void set_turns(Locked, Turns turns);
+
+private:
+  void run();
+  bool has_work(Locked lock) const;
+  bool may_improve(Locked lock) const;
+  bool work();
+  bool take_document();
+  void restart();
+  void improve();
+  void apply_region();
+  bool begin_pass();
+  bool may_render() const;
+  bool finished() const { return accumulation_.finished(current_.settings.stop); }
+  StopCondition stop_condition(const Accumulation::Pass& pass, bool urgent) const;
+  void take_turn();
+  void render(int most_samples, bool urgent);
+  void render_pass(int most_samples, bool urgent);
+  void publish(bool force);
+  void feed_denoiser(bool settled);
+  void fail(std::string error);
+  Presenter::Source source() const;
+
+  SessionMonitor& monitor_;
+  Mailbox& mailbox_;
+  SceneBuilder& scenes_;
+  Presenter& presenter_;
+  std::function<void()> on_publish_;
+
+  // Guarded by the session's mutex, written by the render thread.
+  SessionStatus status_;
+  // Guarded by the session's mutex.
+  Turns turns_;
+
+  // The render thread's.
+  Document current_;
+  SceneBuilder::Built built_;    ///< as SceneBuilder::newest()
+  std::uint64_t generation_ = 0; ///< of the Document that restarted last
+  Accumulation accumulation_;
+  CpuPassRenderer renderer_;
+  bool active_ = false;      ///< there is something to add samples to
+  bool urgent_ = true;       ///< the user waits for the first pass
+  double usual_seconds_ = 0; ///< that a sample took in the newest first picture, of any accumulation
+
+  // Last: they use the rest.
+  UrgentThread urgent_thread_;
+  std::jthread thread_;
+};
+
+} // namespace candela
