@@ -4,7 +4,7 @@
 #include "core/recycler.h"
 #include "render/film/accumulation.h"
 #include "session/display_image.h"
-#include "session/scene_builder.h"
+#include "session/scene_cache.h"
 
 #include <functional>
 #include <thread>
@@ -44,7 +44,7 @@ public:
   struct Source {
     std::uint64_t generation = 0; ///< of the Document that began the accumulation
     const Accumulation& accumulation;
-    const SceneBuilder::Built& built;
+    const SceneCache::Built& built;
     const Document& document; ///< newest
   };
   /// A Document submitted at that time restarts the accumulation.

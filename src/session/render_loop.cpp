@@ -30,8 +30,8 @@ int coarsest_lattice(double pixels, double seconds_per_sample) {
   return 128;
 }
 
-RenderLoop::RenderLoop(SessionMonitor& monitor, WorkerThreads& workers, Mailbox& mailbox,
-                       SceneBuilder& scenes, Presenter& presenter, const SessionOptions& options)
+RenderLoop::RenderLoop(SessionMonitor& monitor, WorkerThreads& workers, Mailbox& mailbox, SceneCache& scenes,
+                       Presenter& presenter, const SessionOptions& options)
     : monitor_(monitor), mailbox_(mailbox), scenes_(scenes), presenter_(presenter),
       on_publish_(options.on_publish), turns_{options.turns, options.variant}, renderer_(options.threads),
       urgent_thread_([&workers] { workers.start(0); }), thread_([this, &workers] {

@@ -7,7 +7,7 @@
 #include "session/presenter.h"
 #include "session/render_session.h"
 #include "session/render_turns.h"
-#include "session/scene_builder.h"
+#include "session/scene_cache.h"
 #include "session/urgent_thread.h"
 
 #include <thread>
@@ -21,7 +21,7 @@ int coarsest_lattice(double pixels, double seconds_per_sample);
 class RenderLoop {
 public:
   /// Starts the thread, which uses the other parts of the session; they must outlive it.
-  RenderLoop(SessionMonitor& monitor, WorkerThreads& workers, Mailbox& mailbox, SceneBuilder& scenes,
+  RenderLoop(SessionMonitor& monitor, WorkerThreads& workers, Mailbox& mailbox, SceneCache& scenes,
              Presenter& presenter, const SessionOptions& options);
 
   /// What the render thread says of itself, without what the other parts of the session know.
@@ -57,7 +57,7 @@ private:
 
   SessionMonitor& monitor_;
   Mailbox& mailbox_;
-  SceneBuilder& scenes_;
+  SceneCache& scenes_;
   Presenter& presenter_;
   std::function<void()> on_publish_;
 
@@ -68,7 +68,7 @@ private:
 
   // The render thread's.
   Document current_;
-  SceneBuilder::Built built_;    ///< as SceneBuilder::newest()
+  SceneCache::Built built_;      ///< as SceneCache::newest()
   std::uint64_t generation_ = 0; ///< of the Document that restarted last
   Accumulation accumulation_;
   CpuPassRenderer renderer_;

@@ -96,7 +96,7 @@ std::optional<Pick> RenderSession::pick(vec2 film_position) const {
 
 RenderSession::Built RenderSession::built() const {
   const auto lock = state_->monitor.lock();
-  const SceneBuilder::Built newest = state_->scenes.newest(lock);
+  const SceneCache::Built newest = state_->scenes.newest(lock);
   return {newest.scene, newest.document};
 }
 

@@ -10,7 +10,7 @@
 #include "session/presenter.h"
 #include "session/render_loop.h"
 #include "session/render_session.h"
-#include "session/scene_builder.h"
+#include "session/scene_cache.h"
 #include "session/session_monitor.h"
 #include "session/worker_threads.h"
 
@@ -37,7 +37,7 @@ struct RenderSession::State {
   SessionMonitor monitor;
   WorkerThreads workers;
   Mailbox mailbox;
-  SceneBuilder scenes;
+  SceneCache scenes;
   Presenter presenter;
   RenderLoop renderer; // last: it uses the rest, and its thread ends first
 };

@@ -5,7 +5,7 @@ namespace candela {
 namespace {
 
 /// Whether the block is as good as the settings ask for.
-bool block_converged(const Film& film, const PixelRect& block, float error) {
+bool block_converged(const Film& film, const PixelBox& block, float error) {
   const ivec2 origin = film.origin();
   double sum = 0;
   for (int y = block.y0; y < block.y1; ++y)
@@ -15,7 +15,7 @@ bool block_converged(const Film& film, const PixelRect& block, float error) {
 }
 
 /// Returns whether the block has stopped.
-bool sample_block(SampleQueue& queue, const PixelRect& block, const PassJob& job, PassResult& result) {
+bool sample_block(SampleQueue& queue, const PixelBox& block, const PassJob& job, PassResult& result) {
   const AdaptiveSettings& adaptive = job.document.settings.adaptive;
   Film& film = queue.image();
   const ivec2 corner = ivec2(block.x0, block.y0) - film.origin();
@@ -40,12 +40,12 @@ bool sample_block(SampleQueue& queue, const PixelRect& block, const PassJob& job
 
 } // namespace
 
-bool sample_blocks(SampleQueue& queue, const PixelRect& tile, const PassJob& job, PassResult& result) {
+bool sample_blocks(SampleQueue& queue, const PixelBox& tile, const PassJob& job, PassResult& result) {
   bool converged = true;
   for (int y = tile.y0; y < tile.y1; y = (y / kAdaptiveBlock + 1) * kAdaptiveBlock)
     for (int x = tile.x0; x < tile.x1; x = (x / kAdaptiveBlock + 1) * kAdaptiveBlock) {
-      const PixelRect block{x, y, std::min((x / kAdaptiveBlock + 1) * kAdaptiveBlock, tile.x1),
-                            std::min((y / kAdaptiveBlock + 1) * kAdaptiveBlock, tile.y1)};
+      const PixelBox block{x, y, std::min((x / kAdaptiveBlock + 1) * kAdaptiveBlock, tile.x1),
+                           std::min((y / kAdaptiveBlock + 1) * kAdaptiveBlock, tile.y1)};
       converged &= sample_block(queue, block, job, result);
     }
   return converged;

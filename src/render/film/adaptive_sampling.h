@@ -17,6 +17,6 @@ inline bool samples_adaptively(const PassJob& job) {
 /// Samples the tile's blocks up to the end of the job's range or to where they converge. That is tested only
 /// at sample numbers that are multiples of adaptive.min_spp, so that it does not depend on how passes divide
 /// the samples. Returns whether all of the tile's blocks have stopped.
-bool sample_blocks(SampleQueue& queue, const PixelRect& tile, const PassJob& job, PassResult& result);
+bool sample_blocks(SampleQueue& queue, const PixelBox& tile, const PassJob& job, PassResult& result);
 
 } // namespace candela

@@ -15,7 +15,7 @@ constexpr int kTileSize = 16;
 static_assert(kTileSize % kAdaptiveBlock == 0, "a block lies in one tile");
 
 /// The pixels of the frame, of which the film may hold a part.
-PixelRect clip(const CropWindow& window, const Film& film) {
+PixelBox clip(const CropWindow& window, const Film& film) {
   const ivec2 lo = film.origin(), hi = lo + ivec2(film.width(), film.height());
   if (window.empty()) return {lo.x, lo.y, hi.x, hi.y};
   return {std::max(window.x, lo.x), std::max(window.y, lo.y), std::min(window.x + window.width, hi.x),
@@ -25,24 +25,24 @@ PixelRect clip(const CropWindow& window, const Film& film) {
 /// The frame's grid of tiles, as far as it lies in a window: it is the same whatever window is rendered.
 class TileGrid {
 public:
-  explicit TileGrid(const PixelRect& window)
+  explicit TileGrid(const PixelBox& window)
       : window_(window), column_(window.x0 / kTileSize), row_(window.y0 / kTileSize),
         columns_(std::max((window.x1 + kTileSize - 1) / kTileSize - column_, 0)),
         rows_(std::max((window.y1 + kTileSize - 1) / kTileSize - row_, 0)) {}
 
   int size() const { return columns_ * rows_; }
-  PixelRect operator[](int i) const {
+  PixelBox operator[](int i) const {
     const int x = (column_ + i % columns_) * kTileSize, y = (row_ + i / columns_) * kTileSize;
     return {std::max(x, window_.x0), std::max(y, window_.y0), std::min(x + kTileSize, window_.x1),
             std::min(y + kTileSize, window_.y1)};
   }
 
 private:
-  PixelRect window_;
+  PixelBox window_;
   int column_, row_, columns_, rows_;
 };
 
-void render_tile(SampleQueue& queue, const PixelRect& tile, const PassJob& job, PassResult& result) {
+void render_tile(SampleQueue& queue, const PixelBox& tile, const PassJob& job, PassResult& result) {
   if (samples_adaptively(job))
     result.converged = sample_blocks(queue, tile, job, result);
   else

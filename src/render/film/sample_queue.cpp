@@ -17,7 +17,7 @@ SampleQueue::SampleQueue(PixelSampler& sampler, const PassJob& job, const PassFi
   samples_.resize(kBatch);
 }
 
-void SampleQueue::sample_all(const PixelRect& window, SampleRange samples, PassResult& result) {
+void SampleQueue::sample_all(const PixelBox& window, SampleRange samples, PassResult& result) {
   const int step = samples.lattice, skip = samples.skip_lattice;
   auto up = [&](int v) { return (v + step - 1) / step * step; };
   for (int y = up(window.y0); y < window.y1; y += step)

@@ -14,7 +14,7 @@ public:
 
   /// Samples [begin, end) of the range's lattice in the window, all of them evaluated and added; none of
   /// those that a pixel has. Counts and the log go to `result`.
-  void sample_all(const PixelRect& window, SampleRange samples, PassResult& result);
+  void sample_all(const PixelBox& window, SampleRange samples, PassResult& result);
 
   /// From now on samples are dropped.
   bool stopped() const { return stopped_; }

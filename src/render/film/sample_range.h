@@ -25,7 +25,7 @@ struct CropWindow { ///< pixels of the frame; empty width or height: the whole f
 CropWindow clip_to_frame(const CropWindow& window, int frame_width, int frame_height);
 
 /// Pixels [x0, x1) x [y0, y1) of the frame.
-struct PixelRect {
+struct PixelBox {
   int x0, y0, x1, y1;
 };
 

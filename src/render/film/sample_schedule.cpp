@@ -6,32 +6,32 @@ namespace candela {
 
 namespace {
 
-PixelRect clipped(const CropWindow& window, const PixelRect& film) {
+PixelBox clipped(const CropWindow& window, const PixelBox& film) {
   return {std::max(window.x, film.x0), std::max(window.y, film.y0),
           std::min(window.x + window.width, film.x1), std::min(window.y + window.height, film.y1)};
 }
 
-bool is_empty(const PixelRect& r) { return r.x0 >= r.x1 || r.y0 >= r.y1; }
+bool is_empty(const PixelBox& r) { return r.x0 >= r.x1 || r.y0 >= r.y1; }
 
-bool contains(const PixelRect& outer, const PixelRect& inner) {
+bool contains(const PixelBox& outer, const PixelBox& inner) {
   return inner.x0 >= outer.x0 && inner.x1 <= outer.x1 && inner.y0 >= outer.y0 && inner.y1 <= outer.y1;
 }
 
 /// The patches, cut along the edges of `edges`: each is inside or outside of it.
 std::vector<SampleSchedule::Patch> cut(std::span<const SampleSchedule::Patch> patches,
-                                       const PixelRect& edges) {
+                                       const PixelBox& edges) {
   std::vector<SampleSchedule::Patch> out;
   for (const SampleSchedule::Patch& patch : patches) {
-    const PixelRect& p = patch.pixels;
+    const PixelBox& p = patch.pixels;
     const int x0 = std::clamp(edges.x0, p.x0, p.x1), x1 = std::clamp(edges.x1, p.x0, p.x1);
     const int y0 = std::clamp(edges.y0, p.y0, p.y1), y1 = std::clamp(edges.y1, p.y0, p.y1);
     if (x0 == x1 || y0 == y1) {
       out.push_back(patch); // they do not meet
       continue;
     }
-    for (const PixelRect& piece :
-         {PixelRect{p.x0, p.y0, p.x1, y0}, PixelRect{p.x0, y1, p.x1, p.y1}, PixelRect{p.x0, y0, x0, y1},
-          PixelRect{x1, y0, p.x1, y1}, PixelRect{x0, y0, x1, y1}})
+    for (const PixelBox& piece :
+         {PixelBox{p.x0, p.y0, p.x1, y0}, PixelBox{p.x0, y1, p.x1, p.y1}, PixelBox{p.x0, y0, x0, y1},
+          PixelBox{x1, y0, p.x1, y1}, PixelBox{x0, y0, x1, y1}})
       if (!is_empty(piece)) out.push_back({piece, patch.samples});
   }
   return out;
@@ -82,7 +82,7 @@ SampleSchedule::Job SampleSchedule::next(std::uint32_t portion) const {
     else if (chosen == nullptr)
       chosen = &p;
   }
-  const PixelRect& r = chosen->pixels;
+  const PixelBox& r = chosen->pixels;
   return {{r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0}, least, end};
 }
 
@@ -93,7 +93,7 @@ void SampleSchedule::done(const Job& job) {
 }
 
 bool SampleSchedule::add(const CropWindow& window, std::uint32_t begin, std::uint32_t end) {
-  const PixelRect rect{window.x, window.y, window.x + window.width, window.y + window.height};
+  const PixelBox rect{window.x, window.y, window.x + window.width, window.y + window.height};
   if (is_empty(rect) || !contains(film_, rect) || begin > end) return false;
   std::vector<Patch> patches = cut(patches_, rect);
   for (Patch& p : patches) {

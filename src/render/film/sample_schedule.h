@@ -14,7 +14,7 @@ class SampleSchedule {
 public:
   /// Pixels that all have their samples up to, not including, index `samples`.
   struct Patch {
-    PixelRect pixels;
+    PixelBox pixels;
     std::uint32_t samples;
   };
   struct Job {
@@ -48,10 +48,10 @@ private:
   bool active(const Patch& p) const;
   void merge();
 
-  PixelRect film_{0, 0, 0, 0};
+  PixelBox film_{0, 0, 0, 0};
   CropWindow wanted_;
-  PixelRect region_{0, 0, 0, 0}; ///< wanted_ clipped to the film
-  std::vector<Patch> patches_;   ///< each inside or outside of the region
+  PixelBox region_{0, 0, 0, 0}; ///< wanted_ clipped to the film
+  std::vector<Patch> patches_;  ///< each inside or outside of the region
 };
 
 } // namespace candela

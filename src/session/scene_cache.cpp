@@ -1,4 +1,4 @@
-#include "session/scene_builder.h"
+#include "session/scene_cache.h"
 
 #include <utility>
 
@@ -14,12 +14,12 @@ bool is_built_anew(const SceneDesc& before, const SceneDesc& now) {
          (before.lights != now.lights && panoramas(before) != panoramas(now));
 }
 
-SceneBuilder::SceneBuilder(SessionMonitor& monitor, WorkerThreads& workers, GeometryCache::OnBuild on_build,
-                           std::shared_ptr<const RenderScene> geometry_of)
+SceneCache::SceneCache(SessionMonitor& monitor, WorkerThreads& workers, GeometryCache::OnBuild on_build,
+                       std::shared_ptr<const RenderScene> geometry_of)
     : monitor_(monitor), geometry_of_(std::move(geometry_of)),
       geometry_(monitor, workers, std::move(on_build)) {}
 
-std::shared_ptr<const RenderScene> SceneBuilder::build(const Document& document) {
+std::shared_ptr<const RenderScene> SceneCache::build(const Document& document) {
   std::shared_ptr<Progress> progress;
   {
     const auto lock = monitor_.lock();
@@ -30,12 +30,12 @@ std::shared_ptr<const RenderScene> SceneBuilder::build(const Document& document)
   return RenderScene::build(document, std::move(geometry), previous.get(), progress.get());
 }
 
-void SceneBuilder::adopt(Locked lock, std::shared_ptr<const RenderScene> scene, const Document& document) {
+void SceneCache::adopt(Locked lock, std::shared_ptr<const RenderScene> scene, const Document& document) {
   newest_ = {std::move(scene), std::make_shared<const Document>(document)};
   geometry_.adopt(lock);
 }
 
-std::shared_ptr<const RenderScene> SceneBuilder::build_improved(const Document& document) {
+std::shared_ptr<const RenderScene> SceneCache::build_improved(const Document& document) {
   std::shared_ptr<const Geometry> better;
   {
     const auto lock = monitor_.lock();
@@ -45,7 +45,7 @@ std::shared_ptr<const RenderScene> SceneBuilder::build_improved(const Document& 
   return RenderScene::build(document, std::move(better), newest_.scene.get());
 }
 
-void SceneBuilder::adopt_improved(Locked lock, std::shared_ptr<const RenderScene> scene) {
+void SceneCache::adopt_improved(Locked lock, std::shared_ptr<const RenderScene> scene) {
   newest_.scene = std::move(scene);
   geometry_.adopt_improvement(lock, newest_.scene->shared_geometry());
 }

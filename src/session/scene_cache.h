@@ -11,7 +11,7 @@ namespace candela {
 bool is_built_anew(const SceneDesc& before, const SceneDesc& now);
 
 /// The render thread builds. What others see is guarded by the session's mutex.
-class SceneBuilder {
+class SceneCache {
 public:
   struct Built {
     std::shared_ptr<const RenderScene> scene;
@@ -19,8 +19,8 @@ public:
   };
 
   /// `geometry_of`: a scene of another session whose geometry and lights serve the first one; may be null.
-  SceneBuilder(SessionMonitor& monitor, WorkerThreads& workers, GeometryCache::OnBuild on_build,
-               std::shared_ptr<const RenderScene> geometry_of);
+  SceneCache(SessionMonitor& monitor, WorkerThreads& workers, GeometryCache::OnBuild on_build,
+             std::shared_ptr<const RenderScene> geometry_of);
 
   /// Newest that was built; null before.
   Built newest(Locked) const { return newest_; }
