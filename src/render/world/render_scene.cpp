@@ -44,7 +44,7 @@ Bsdf make_bsdf(const Material& m) {
 std::shared_ptr<const RenderScene> RenderScene::build(const Document& document, const RenderScene* previous,
                                                       Progress* progress) {
   const std::vector<Instance>& instances = document.scene.instances;
-  const bool same = previous != nullptr && previous->instances_ == instances;
+  const bool same = previous != nullptr && previous->instances() == instances;
   return build(document,
                same ? previous->geometry_ : Geometry::build(instances, BuildQuality::high, progress),
                previous, progress);
@@ -54,28 +54,17 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
                                                       std::shared_ptr<const Geometry> geometry,
                                                       const RenderScene* previous, Progress* progress) {
   auto scene = std::make_shared<RenderScene>();
-  const SceneDesc& desc = document.scene;
+  const bool same_geometry = previous != nullptr && previous->geometry_ == geometry;
   scene->geometry_ = std::move(geometry);
-  scene->instances_ = desc.instances;
-  scene->textures_ = desc.textures;
-  scene->add_materials(document);
-  scene->add_emitters(progress);
-  scene->add_lights(desc.lights, previous, progress);
-
-  Bounds3 bounds = scene->geometry_->finite_bounds();
-  float radius = bounds.empty() ? 1.0f : std::max(0.5f * glm::length(bounds.diagonal()), 1e-6f);
-  std::vector<std::uint32_t> all, delta;
-  for (std::uint32_t i = 0; i < scene->lights_.size(); ++i) {
-    all.push_back(i);
-    if (is_delta_light(scene->lights_[i])) delta.push_back(i);
-  }
-  LightChoiceBy how = document.settings.path.light_choice;
-  scene->all_lights_ = LightSelection(scene->lights_, all, how, radius, progress);
-  scene->delta_lights_ = LightSelection(scene->lights_, delta, how, radius, progress);
+  scene->instances_ = same_geometry ? previous->instances_
+                                    : std::make_shared<const std::vector<Instance>>(document.scene.instances);
+  scene->materials_ = SceneMaterials::of(document, previous != nullptr ? previous->materials_ : nullptr);
+  scene->lights_ = SceneLights::of(document, scene->geometry_, scene->materials_,
+                                   previous != nullptr ? previous->lights_ : nullptr, progress);
   return scene;
 }
 
-void RenderScene::add_materials(const Document& document) {
+void SceneMaterials::add_materials(const Document& document) {
   const OverrideSettings& o = document.settings.override_brdf;
   for (const Material& m : document.scene.materials) {
     SurfaceMaterial s;
@@ -99,7 +88,7 @@ void RenderScene::add_materials(const Document& document) {
   if (o.brdf == BrdfOverride::none) add_interiors(document.scene.materials);
 }
 
-void RenderScene::add_interiors(const std::vector<Material>& materials) {
+void SceneMaterials::add_interiors(const std::vector<Material>& materials) {
   auto is_body = [](const Material& m) { return m.type == MaterialType::dielectric; };
   if (std::ranges::none_of(materials,
                            [&](const Material& m) { return is_body(m) && !is_black(m.absorption); }))
@@ -117,7 +106,7 @@ void RenderScene::add_interiors(const std::vector<Material>& materials) {
   }
 }
 
-void RenderScene::add_emitters(const Progress* progress) {
+void SceneLights::add_emitters(const Progress* progress) {
   // A path that meets a partly transparent light by chance sees it with the chance of its opacity; aiming at
   // it must expect the same.
   auto aimed = [](const SurfaceMaterial& m) { return m.emission * m.opacity; };
@@ -184,7 +173,7 @@ void RenderScene::add_emitters(const Progress* progress) {
   }
 }
 
-const EnvironmentMap* RenderScene::environment_map(const LightDesc& light, const RenderScene* previous,
+const EnvironmentMap* SceneLights::environment_map(const LightDesc& light, const SceneLights* previous,
                                                    const Progress* progress) {
   auto fits = [&](const auto& map) {
     return map->panorama() == light.panorama && map->mapping() == light.mapping;
@@ -201,7 +190,7 @@ const EnvironmentMap* RenderScene::environment_map(const LightDesc& light, const
   return map.get();
 }
 
-void RenderScene::add_lights(const std::vector<LightDesc>& lights, const RenderScene* previous,
+void SceneLights::add_lights(const std::vector<LightDesc>& lights, const SceneLights* previous,
                              const Progress* progress) {
   for (const LightDesc& l : lights) {
     vec3 color = l.color * l.scale;
@@ -231,12 +220,7 @@ void RenderScene::add_lights(const std::vector<LightDesc>& lights, const RenderS
 }
 
 std::size_t RenderScene::memory_bytes() const {
-  std::size_t bytes = geometry_->memory_bytes() + materials_.size() * sizeof(SurfaceMaterial) +
-                      lights_.size() * sizeof(Light) + light_of_emitter_.memory_bytes();
-  bytes += all_lights_.memory_bytes() + delta_lights_.memory_bytes();
-  for (const auto& texture : textures_) bytes += texture->srgb.size();
-  for (const auto& map : environment_maps_) bytes += map->memory_bytes();
-  return bytes;
+  return geometry_->memory_bytes() + materials_->memory_bytes() + lights_->memory_bytes();
 }
 
 Bsdf evaluate_bsdf(const SurfaceMaterial& material, vec2 uv) {

@@ -1,34 +1,14 @@
 #pragma once
 // A Document made ready to render; const while it is.
 
-#include "bsdf/bsdf.h"
-#include "render/lights/emitter_lights.h"
-#include "render/lights/light_selection.h"
-#include "render/world/geometry.h"
-#include "scene/document.h"
+#include "render/world/scene_parts.h"
 
 namespace candela {
 
-/// Where a surface bounds no body that light enters.
-inline constexpr std::uint16_t kNoInterior = 0xffff;
-
-/// A material as shading needs it.
-struct SurfaceMaterial {
-  Bsdf bsdf;
-  const Texture* diffuse_texture = nullptr; ///< multiplies the BSDF's diffuse part; null: none
-  UvTransform diffuse_uv;                   ///< of that texture
-  vec3 emission{0};                         ///< W/(m^2 sr)
-  float opacity = 1;
-  bool emissive = false;
-  bool two_sided_emission = false;
-  /// What is behind the surface: RenderScene::absorption() tells its absorption. The same number for bodies
-  /// that absorb the same; of a clear dielectric, too, where anything absorbs: it may lie inside of that.
-  std::uint16_t interior = kNoInterior;
-};
-
 class RenderScene {
 public:
-  /// Reuses the geometry of `previous` where the instances are the same, and what it made of panoramas.
+  /// Shares the parts of `previous` that the document does not change: geometry where the instances are the
+  /// same, materials and lights (scene_parts.h), and environment maps.
   /// Throws Cancelled soon after `progress` is told to end; it may be null.
   static std::shared_ptr<const RenderScene>
   build(const Document& document, const RenderScene* previous = nullptr, Progress* progress = nullptr);
@@ -37,49 +17,36 @@ public:
                                                   std::shared_ptr<const Geometry> geometry,
                                                   const RenderScene* previous, Progress* progress = nullptr);
 
-  const std::vector<Instance>& instances() const { return instances_; }
+  const std::vector<Instance>& instances() const { return *instances_; }
   const std::shared_ptr<const Geometry>& shared_geometry() const { return geometry_; }
+  const std::shared_ptr<const SceneMaterials>& shared_materials() const { return materials_; }
+  const std::shared_ptr<const SceneLights>& shared_lights() const { return lights_; }
   const Geometry& geometry() const { return *geometry_; }
-  const SurfaceMaterial& material(std::uint32_t index) const { return materials_[index]; }
+  const SurfaceMaterial& material(std::uint32_t index) const { return (*materials_)[index]; }
   /// Whether any surface lets light straight through, so that rays must look.
-  bool has_transparency() const { return has_transparency_; }
+  bool has_transparency() const { return materials_->has_transparency(); }
   /// Whether light fades on its way through any body, so that rays must know where they are.
-  bool has_absorption() const { return !absorptions_.empty(); }
+  bool has_absorption() const { return !materials_->absorptions().empty(); }
   /// sigma_a of an interior, 1/scene unit.
-  vec3 absorption(std::uint16_t interior) const { return absorptions_[interior]; }
+  vec3 absorption(std::uint16_t interior) const { return materials_->absorptions()[interior]; }
 
-  const std::vector<Light>& lights() const { return lights_; }
+  const std::vector<Light>& lights() const { return lights_->lights(); }
   /// The light that a primitive is (part of), or kNoLight.
-  std::uint32_t light_of(std::uint64_t emitter) const { return light_of_emitter_[emitter]; }
-  const std::vector<std::uint32_t>& infinite_lights() const { return infinite_lights_; }
+  std::uint32_t light_of(std::uint64_t emitter) const { return lights_->light_of(emitter); }
+  const std::vector<std::uint32_t>& infinite_lights() const { return lights_->infinite_lights(); }
 
-  /// Choice of a light as path.light_choice has it: among all, or among those that no direction can hit by
-  /// chance.
-  const LightSelection& all_lights() const { return all_lights_; }
-  const LightSelection& delta_lights() const { return delta_lights_; }
+  /// Choice of a light as path.light_choice has it: among all, or among those that no sampled direction can
+  /// hit.
+  const LightSelection& all_lights() const { return lights_->all_lights(); }
+  const LightSelection& delta_lights() const { return lights_->delta_lights(); }
 
   std::size_t memory_bytes() const;
 
 private:
   std::shared_ptr<const Geometry> geometry_;
-  std::vector<Instance> instances_; ///< what geometry_ was built from
-  std::vector<std::shared_ptr<const Texture>> textures_;
-  std::vector<SurfaceMaterial> materials_;
-  std::vector<Light> lights_;
-  EmitterLights light_of_emitter_;
-  std::vector<std::uint32_t> infinite_lights_;
-  std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
-  LightSelection all_lights_, delta_lights_;
-  bool has_transparency_ = false;
-  std::vector<vec3> absorptions_; ///< by interior; empty where nothing absorbs
-
-  void add_materials(const Document& document);
-  void add_interiors(const std::vector<Material>& materials);
-  void add_emitters(const Progress* progress);
-  void add_lights(const std::vector<LightDesc>& lights, const RenderScene* previous,
-                  const Progress* progress);
-  const EnvironmentMap* environment_map(const LightDesc& light, const RenderScene* previous,
-                                        const Progress* progress);
+  std::shared_ptr<const std::vector<Instance>> instances_; ///< what geometry_ was built from
+  std::shared_ptr<const SceneMaterials> materials_;
+  std::shared_ptr<const SceneLights> lights_;
 };
 
 /// The material's BSDF, without its texture.

@@ -1,0 +1,79 @@
+// What makes a part of a scene serve the next one.
+
+#include "render/world/scene_parts.h"
+
+namespace candela {
+
+namespace {
+
+/// Whether surfaces of either material are the same lights.
+bool emits_alike(const SurfaceMaterial& a, const SurfaceMaterial& b) {
+  if (!a.emissive && !b.emissive) return true;
+  return a.emission == b.emission && a.opacity == b.opacity && a.two_sided_emission == b.two_sided_emission;
+}
+
+} // namespace
+
+SceneMaterials::SceneMaterials(const Document& document)
+    : source_(document.scene.materials), textures_(document.scene.textures),
+      override_(document.settings.override_brdf) {
+  add_materials(document);
+}
+
+std::shared_ptr<const SceneMaterials> SceneMaterials::of(const Document& document,
+                                                         std::shared_ptr<const SceneMaterials> previous) {
+  if (previous != nullptr && previous->source_ == document.scene.materials &&
+      previous->textures_ == document.scene.textures &&
+      previous->override_ == document.settings.override_brdf)
+    return previous;
+  return std::make_shared<const SceneMaterials>(document);
+}
+
+std::size_t SceneMaterials::memory_bytes() const {
+  std::size_t bytes = materials_.size() * sizeof(SurfaceMaterial);
+  for (const auto& texture : textures_) bytes += texture->srgb.size();
+  return bytes;
+}
+
+SceneLights::SceneLights(const Document& document, std::shared_ptr<const Geometry> geometry,
+                         std::shared_ptr<const SceneMaterials> materials, const SceneLights* previous,
+                         const Progress* progress)
+    : geometry_(std::move(geometry)), kept_materials_(std::move(materials)), materials_(*kept_materials_),
+      source_(document.scene.lights), light_choice_(document.settings.path.light_choice) {
+  add_emitters(progress);
+  add_lights(source_, previous, progress);
+  add_selections(progress);
+}
+
+std::shared_ptr<const SceneLights> SceneLights::of(const Document& document,
+                                                   const std::shared_ptr<const Geometry>& geometry,
+                                                   const std::shared_ptr<const SceneMaterials>& materials,
+                                                   std::shared_ptr<const SceneLights> previous,
+                                                   const Progress* progress) {
+  if (previous != nullptr && previous->geometry_ == geometry && previous->source_ == document.scene.lights &&
+      previous->light_choice_ == document.settings.path.light_choice &&
+      std::ranges::equal(previous->materials_, *materials, emits_alike))
+    return previous;
+  return std::make_shared<const SceneLights>(document, geometry, materials, previous.get(), progress);
+}
+
+void SceneLights::add_selections(const Progress* progress) {
+  const Bounds3 bounds = geometry_->finite_bounds();
+  const float radius = bounds.empty() ? 1.0f : std::max(0.5f * glm::length(bounds.diagonal()), 1e-6f);
+  std::vector<std::uint32_t> all, delta;
+  for (std::uint32_t i = 0; i < lights_.size(); ++i) {
+    all.push_back(i);
+    if (is_delta_light(lights_[i])) delta.push_back(i);
+  }
+  all_lights_ = LightSelection(lights_, all, light_choice_, radius, progress);
+  delta_lights_ = LightSelection(lights_, delta, light_choice_, radius, progress);
+}
+
+std::size_t SceneLights::memory_bytes() const {
+  std::size_t bytes = lights_.size() * sizeof(Light) + light_of_emitter_.memory_bytes() +
+                      all_lights_.memory_bytes() + delta_lights_.memory_bytes();
+  for (const auto& map : environment_maps_) bytes += map->memory_bytes();
+  return bytes;
+}
+
+} // namespace candela
