@@ -45,7 +45,7 @@ std::unique_ptr<DenoiseJob> DenoiseThread::cancel() {
 }
 
 void DenoiseThread::run() {
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness); // its OpenMP team inherits it
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness); // its OpenMP workers inherit it
   FeatureFilm features;
   std::uint64_t features_of = 0;                      // accumulation
   BuildQuality features_quality = BuildQuality::high; // of its geometry, which changes what is rounded how

@@ -1,5 +1,5 @@
 #pragma once
-// The third thread of a session: it denoises snapshots of the accumulation while that goes on.
+// Denoises snapshots of an accumulation, on a thread of its own beside the render.
 
 #include "render/denoise/denoise_film.h"
 
@@ -42,9 +42,9 @@ public:
   DenoiseThread(const DenoiseThread&) = delete;
   DenoiseThread& operator=(const DenoiseThread&) = delete;
 
-  /// Hands in a job; it replaces one that was not begun. The one in work goes on, so that there is something
-  /// to see while samples come in faster than they can be denoised. Returns the one that was replaced, so
-  /// that its memory need not be freed under a lock.
+  /// Hands in a job; it replaces one that was not begun. The one in work continues, so that there is
+  /// something to see while samples come in faster than they can be denoised. Returns the one that was
+  /// replaced, so that its memory need not be freed under a lock.
   std::unique_ptr<DenoiseJob> post(std::unique_ptr<DenoiseJob> job);
   /// Drops the job in work and the one that waits, which is returned.
   std::unique_ptr<DenoiseJob> cancel();

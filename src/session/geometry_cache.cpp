@@ -11,8 +11,8 @@ namespace {
 
 /// Below the renderer's.
 constexpr int kNiceness = 15;
-/// Seconds after the last edit of geometry in which nothing better is built: each step of a drag would begin
-/// it in vain.
+/// Seconds after the last edit of geometry before better geometry is built: each step of a drag would discard
+/// it.
 constexpr double kRest = 0.3;
 
 } // namespace

@@ -18,7 +18,7 @@ double seconds_since(Clock::time_point start) {
 
 /// Side of the coarsest blocks of a first pass that may run out of time; a power of two.
 constexpr int kCoarsest = 32;
-/// Of one pass: what is lost by synchronising at its end is no matter, and progress is told often.
+/// Of one pass: long enough that the synchronisation at its end costs little, short enough for progress.
 constexpr double kPassSeconds = 0.2;
 
 /// Pixels without samples get the value of one that stands for a block around them, where there is one.
@@ -26,7 +26,7 @@ constexpr double kPassSeconds = 0.2;
 double fill_missing(OfflineResult& result) {
   Film& film = result.film;
   const ivec2 origin = film.origin();
-  // Beforehand, for what is filled in stands for nothing.
+  // Collected first: pixels that are filled in stand for no others.
   std::vector<std::pair<ivec2, std::optional<ivec2>>> holes;
   for (int y = 0; y < film.height(); ++y)
     for (int x = 0; x < film.width(); ++x) {
@@ -95,7 +95,7 @@ ViewPicture render_view(const Document& document, const OfflineResult& rendered,
   Document other = document;
   other.settings.view = view;
   other.settings.stop = {};
-  // Of an interrupted render, too, every picture is whole, but whoever interrupted it does not wait long.
+  // The pictures of an interrupted render are whole, too, but of few samples: the user wants it to end.
   other.settings.stop.spp = rendered.interrupted ? 1 : std::max(rendered.spp, 1);
   other.settings.adaptive = {};
   OfflineOptions quiet = options;

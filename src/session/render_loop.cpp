@@ -14,7 +14,7 @@ constexpr int kNiceness = 10;
 /// The first picture after an edit is finished although a newer edit waits, so that there are pictures while
 /// one drags; but only so long.
 constexpr std::chrono::milliseconds kFirstPicturePatience{100};
-/// Of a pass: enough to be worth its synchronisation, little enough to publish often.
+/// Of a pass: long enough that its synchronisation costs little, short enough to publish often.
 constexpr double kPassSeconds = 0.02;
 /// Side of the coarsest blocks while no sample has been timed.
 constexpr int kUsualLattice = 8;
@@ -23,7 +23,7 @@ constexpr int kUsualLattice = 8;
 
 int coarsest_lattice(double pixels, double seconds_per_sample) {
   if (seconds_per_sample <= 0) return kUsualLattice;
-  // Finer pictures are worth some waiting, coarser ones only the saving of a lot.
+  // The finest level that is there soon enough; the finer one may take less time, not more.
   constexpr std::pair<int, double> kWorth[] = {{4, 6e-3}, {8, 12e-3}, {16, 30e-3}, {32, 60e-3}, {64, 80e-3}};
   for (auto [lattice, seconds] : kWorth)
     if (pixels / (lattice * lattice) * seconds_per_sample <= seconds) return lattice;
@@ -62,7 +62,7 @@ void RenderLoop::run() {
       auto lock = monitor_.lock();
       auto wakes = [&] { return mailbox_.closed(lock) || has_work(lock); };
       if (turns_.turns && (mailbox_.closed(lock) || !wakes()))
-        turns_.turns->leave(turns_.variant); // nobody waits for it
+        turns_.turns->leave(turns_.variant); // the others do not wait for it
       monitor_.changed.wait(lock, wakes);
       if (mailbox_.closed(lock)) return;
     }
@@ -96,7 +96,7 @@ bool RenderLoop::work() {
   if (worked) take_turn();
   const bool other_view = accumulation_.spp() > 0 && !presenter_.is_of_view(current_.settings.view);
   active_ = !finished();
-  const bool settled = !active_ || !may_render(); // asked once: phase and picture must agree about it
+  const bool settled = !active_ || !may_render(); // evaluated once: phase and picture must agree about it
   if (settled || other_view) presenter_.show_anyway();
   if (other_view) publish(true); // of the same samples
   if (settled && !presenter_.is_current(accumulation_.rays().samples)) publish(true);
@@ -215,7 +215,7 @@ void RenderLoop::take_turn() {
     const auto lock = monitor_.lock();
     with = turns_;
   }
-  // The user waits for the coarsest image: it yields to nobody, nor to a newer edit.
+  // The user waits for the coarsest image: it yields to no other session and to no newer edit.
   const bool urgent = accumulation_.at_coarsest() && urgent_;
   if (!with.turns) {
     render(0, urgent);

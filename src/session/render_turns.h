@@ -11,11 +11,11 @@ namespace candela {
 
 class RenderTurns {
 public:
-  /// What the sides of a contest have equally much of.
+  /// What the variants of a group have equally much of.
   enum class Fairness { samples, time };
 
-  /// `contest[i]` is the contest of side i. Sides of one contest stay level; contests alternate.
-  explicit RenderTurns(std::vector<int> contest);
+  /// `groups[i]` is the group of variant i. Those of one group stay level; groups alternate.
+  explicit RenderTurns(std::vector<int> groups);
 
   void set_fairness(Fairness fairness);
 
@@ -25,34 +25,34 @@ public:
   };
   struct Turn {
     bool granted = false;
-    int most_samples = 0; ///< a pixel, until the side is level with another one; 0: as many as it likes
+    int most_samples = 0; ///< a pixel, until the variant is level with another one; 0: no limit
   };
-  /// Waits for the side's turn, or until `give_up`; who sets that must call wake(). A turn that is granted
+  /// Waits for the variant's turn, or until `give_up`; whoever sets that calls wake(). A turn that is granted
   /// must be ended.
-  Turn begin(int side, const Progress& progress, const std::atomic<bool>& give_up);
-  void end(int side);
-  /// The side has nothing to render: nobody waits for it until it begins again.
-  void leave(int side);
+  Turn begin(int variant, const Progress& progress, const std::atomic<bool>& give_up);
+  void end(int variant);
+  /// The variant has nothing to render: the others do not wait for it until it begins again.
+  void leave(int variant);
   void wake();
 
 private:
-  struct Side {
-    int contest = 0;
+  struct Variant {
+    int group = 0;
     bool active = false;  ///< has begun and did not leave
     bool waiting = false; ///< for its turn
     Progress progress;
   };
-  double amount(const Side& side) const {
-    return fairness_ == Fairness::samples ? side.progress.samples : side.progress.seconds;
+  double amount(const Variant& variant) const {
+    return fairness_ == Fairness::samples ? variant.progress.samples : variant.progress.seconds;
   }
-  bool may_go(std::size_t side) const;
+  bool may_go(std::size_t variant) const;
 
   std::mutex mutex_;
   std::condition_variable changed_;
   Fairness fairness_ = Fairness::samples;
-  std::vector<Side> sides_;
+  std::vector<Variant> variants_;
   int holder_ = -1;
-  int last_ = -1; ///< side that held last
+  int last_ = -1; ///< variant that held last
 };
 
 } // namespace candela

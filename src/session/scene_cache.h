@@ -7,7 +7,7 @@
 
 namespace candela {
 
-/// Whether building `before` is in vain for who wants `now`: it has other meshes or panoramas.
+/// Whether a scene of `before` that is being built is of no use for `now`: it has other meshes or panoramas.
 bool is_built_anew(const SceneDesc& before, const SceneDesc& now);
 
 /// The render thread builds. What others see is guarded by the session's mutex.

@@ -1,7 +1,7 @@
 #pragma once
-// Work that a hand waits for. The render thread and its OpenMP team yield to everything else on the machine,
-// and a thread that has given up its priority may not take it back; so the first picture of an edit is made
-// by a thread, with a team of its own, that never gave it up.
+// Work that the user waits for. The render thread and its OpenMP workers yield to everything else on the
+// machine, and a thread that has given up its priority may not take it back; so the first picture of an edit
+// is made by a thread, with workers of its own, that never gave it up.
 
 #include <condition_variable>
 #include <functional>

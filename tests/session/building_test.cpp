@@ -13,6 +13,7 @@ using test::BuildGate;
 using test::headless;
 using test::kPatience;
 using test::shows;
+using test::small_cornell;
 
 Document small_document() {
   test::SceneMaker s(16, 12, 1);
@@ -92,7 +93,7 @@ TEST(SessionBuilding, TheFirstOneMayBeOutOfDateToo) {
 }
 
 // Who flies through a scene that is being built would otherwise never see it.
-TEST(SessionBuilding, AnotherCameraLetsItGoOn) {
+TEST(SessionBuilding, AnotherCameraDoesNotCancelIt) {
   BuildGate gate(true);
   RenderSession session({.on_build = gate.hook()});
   Document large = large_document(20);
@@ -111,7 +112,7 @@ TEST(SessionBuilding, WhatMovesIsShownSoonAndBuiltWellInTheEnd) {
   large.settings.stop.spp = 3;
   ASSERT_TRUE(shows(session, large));
   EXPECT_EQ(session.built().scene->geometry().quality(), BuildQuality::high);
-  session.pause(true); // nothing better comes until it goes on
+  session.pause(true); // nothing better comes until it continues
   std::shared_ptr<const Geometry::Object> object;
   for (int step = 0; step < 3; ++step) {
     large.scene.instances[0].world_from_object[3].x += 0.1f;
@@ -187,6 +188,31 @@ TEST(SessionBuilding, ShareGrows) {
     return false;
   }));
   EXPECT_GT(steps, 1);
+}
+
+// Flying through a scene costs what rendering it costs.
+TEST(SessionBuilding, ACameraMoveBuildsNothing) {
+  int builds = 0; // written by the render thread, read while it rests
+  RenderSession session({.on_build = [&](const Progress&) { ++builds; }});
+  Document d = small_cornell(1);
+  ASSERT_TRUE(shows(session, d));
+  const auto first = session.built().scene;
+  for (int step = 0; step < 4; ++step) {
+    d.scene.camera.position.x += 2;
+    ASSERT_TRUE(shows(session, d));
+    const auto moved = session.built().scene;
+    EXPECT_EQ(moved->shared_geometry(), first->shared_geometry());
+    EXPECT_EQ(moved->shared_materials(), first->shared_materials());
+    EXPECT_EQ(moved->shared_lights(), first->shared_lights());
+  }
+  EXPECT_EQ(builds, 1);
+  d.scene.materials[0].diffuse *= 0.5f;
+  ASSERT_TRUE(shows(session, d));
+  EXPECT_NE(session.built().scene->shared_materials(), first->shared_materials());
+  EXPECT_EQ(session.built().scene->shared_lights(), first->shared_lights());
+  EXPECT_EQ(session.built().scene->lights().data(), first->lights().data());
+  EXPECT_EQ(builds, 1);
+  EXPECT_EQ(session.latest()->linear, headless(d));
 }
 
 TEST(SessionBuilding, WhoLeavesDoesNotWaitForIt) {

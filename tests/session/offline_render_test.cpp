@@ -36,7 +36,7 @@ TEST(OfflineRender, StopsAtTheTimeWithinTheFirstPassAndFillsWhatIsMissing) {
   if (r.spp > 0) GTEST_SKIP() << "this machine renders 4 million pixels in the time";
   EXPECT_FALSE(r.interrupted);
   EXPECT_GT(r.missing, 0);
-  // Whatever there was time for: a pixel is empty only where the one that stands for its block is.
+  // However much was rendered: a pixel is empty only where the one that stands for its block is.
   int wrong = 0;
   for (int y = 0; y < 2048; ++y)
     for (int x = 0; x < 2048; ++x)

@@ -10,12 +10,13 @@ namespace {
 
 using Fairness = RenderTurns::Fairness;
 
-/// Threads that take turns; each turn adds what the side's portion is.
-struct Contest {
-  explicit Contest(std::vector<int> groups) : turns(groups) {
-    for (std::size_t side = 0; side < groups.size(); ++side) { // all are in it before any thread runs ahead
-      turns.begin(static_cast<int>(side), {}, stop);
-      turns.end(static_cast<int>(side));
+/// Threads that take turns; each turn adds the variant's portion.
+struct Comparison {
+  explicit Comparison(std::vector<int> groups) : turns(groups) {
+    for (std::size_t variant = 0; variant < groups.size();
+         ++variant) { // all are in it before any thread runs ahead
+      turns.begin(static_cast<int>(variant), {}, stop);
+      turns.end(static_cast<int>(variant));
     }
   }
   std::atomic<bool> stop{false};
@@ -23,11 +24,11 @@ struct Contest {
   std::atomic<int> inside{0};
   std::atomic<bool> overlapped{false};
 
-  void run(int side, double samples_a_turn, double seconds_a_turn, double target, std::vector<double>* gaps,
-           const std::atomic<double>* other, std::atomic<double>* mine) {
+  void run(int variant, double samples_a_turn, double seconds_a_turn, double target,
+           std::vector<double>* gaps, const std::atomic<double>* other, std::atomic<double>* mine) {
     double samples = 0, seconds = 0;
     while (samples < target) {
-      const auto turn = turns.begin(side, {samples, seconds}, stop);
+      const auto turn = turns.begin(variant, {samples, seconds}, stop);
       if (!turn.granted) break;
       if (inside.fetch_add(1) != 0) overlapped = true;
       const double step =
@@ -38,21 +39,21 @@ struct Contest {
       if (gaps != nullptr && *other > 0) gaps->push_back(*mine - *other);
       std::this_thread::yield();
       inside.fetch_sub(1);
-      turns.end(side);
+      turns.end(variant);
     }
-    turns.leave(side);
+    turns.leave(variant);
   }
   bool turns_by_time = false;
 };
 
 TEST(RenderTurns, OneAtATimeAndNoneRunsAhead) {
-  Contest contest({0, 0});
+  Comparison group({0, 0});
   std::atomic<double> a{0}, b{0};
   std::vector<double> gaps;
-  std::jthread other([&] { contest.run(1, 1, 0.03, 100, nullptr, &a, &b); });
-  contest.run(0, 16, 0.01, 100, &gaps, &b, &a);
+  std::jthread other([&] { group.run(1, 1, 0.03, 100, nullptr, &a, &b); });
+  group.run(0, 16, 0.01, 100, &gaps, &b, &a);
   other.join();
-  EXPECT_FALSE(contest.overlapped);
+  EXPECT_FALSE(group.overlapped);
   EXPECT_GE(a, 100);
   EXPECT_GE(b, 100);
   ASSERT_FALSE(gaps.empty());
@@ -60,17 +61,17 @@ TEST(RenderTurns, OneAtATimeAndNoneRunsAhead) {
 }
 
 TEST(RenderTurns, EqualTimeGivesTheQuickerMoreSamples) {
-  Contest contest({0, 0});
-  contest.turns.set_fairness(Fairness::time);
-  contest.turns_by_time = true;
+  Comparison group({0, 0});
+  group.turns.set_fairness(Fairness::time);
+  group.turns_by_time = true;
   std::atomic<double> a{0}, b{0};
   std::vector<double> gaps;
-  std::jthread other([&] { contest.run(1, 1, 0.5, 1e9, nullptr, &a, &b); });
-  contest.run(0, 10, 0.5, 1000, &gaps, &b, &a);
-  contest.stop = true;
-  contest.turns.wake();
+  std::jthread other([&] { group.run(1, 1, 0.5, 1e9, nullptr, &a, &b); });
+  group.run(0, 10, 0.5, 1000, &gaps, &b, &a);
+  group.stop = true;
+  group.turns.wake();
   other.join();
-  EXPECT_FALSE(contest.overlapped);
+  EXPECT_FALSE(group.overlapped);
   for (double gap : gaps) EXPECT_LE(gap, 0.5 + 1e-9);
   EXPECT_GE(b, 40) << "of 50 seconds";
 }
@@ -80,23 +81,23 @@ TEST(RenderTurns, WhoLeavesIsNotWaitedFor) {
   const std::atomic<bool> never{false}, at_once{true};
   ASSERT_TRUE(turns.begin(1, {0, 0}, never).granted);
   turns.end(1);
-  // Side 1 is active with nothing done: side 0 must wait for it, so it is told to give up.
+  // Variant 1 is active with nothing done: variant 0 must wait for it, so it is told to give up.
   EXPECT_FALSE(turns.begin(0, {5, 0}, at_once).granted);
   turns.leave(1);
   ASSERT_TRUE(turns.begin(0, {5, 0}, never).granted);
   turns.end(0);
 }
 
-TEST(RenderTurns, ContestsAlternate) {
-  Contest contest({0, 0, 1});
+TEST(RenderTurns, GroupsAlternate) {
+  Comparison group({0, 0, 1});
   std::atomic<double> a{0}, b{0}, c{0};
   std::vector<double> gaps;
-  std::jthread first([&] { contest.run(0, 1, 0.1, 200, nullptr, &b, &a); });
-  std::jthread second([&] { contest.run(1, 1, 0.1, 200, nullptr, &a, &b); });
-  contest.run(2, 1, 0.1, 100, nullptr, &a, &c);
+  std::jthread first([&] { group.run(0, 1, 0.1, 200, nullptr, &b, &a); });
+  std::jthread second([&] { group.run(1, 1, 0.1, 200, nullptr, &a, &b); });
+  group.run(2, 1, 0.1, 100, nullptr, &a, &c);
   first.join();
   second.join();
-  EXPECT_FALSE(contest.overlapped);
+  EXPECT_FALSE(group.overlapped);
   EXPECT_GE(a, 200);
   EXPECT_GE(c, 100);
 }
@@ -157,7 +158,7 @@ TEST(RenderTurnsRender, EditsDoNotWaitForTheOther) {
   };
   EXPECT_TRUE(reaches(first, 8));
   EXPECT_TRUE(reaches(*second, 8));
-  first.pause(true); // then the other goes on alone
+  first.pause(true); // then the other continues alone
   const int spp = second->status().spp;
   EXPECT_TRUE(reaches(*second, spp + 100));
   first.pause(false);

@@ -51,7 +51,7 @@ TEST(SessionControl, AnEditWhilePausedShowsItsFirstPass) {
   }
 }
 
-// A pause may come at any moment of the render thread's loop: between looking whether to go on and saying
+// A pause may come at any moment of the render thread's loop: between testing whether to continue and saying
 // what phase it is, or after that. Tiny portions make each such moment likely.
 TEST(SessionControl, EveryPauseIsReachedAndShowsEverySample) {
   RenderSession session({.threads = 1});
@@ -137,7 +137,7 @@ TEST(SessionControl, ClosingDoesNotWaitForAPass) {
   }
 }
 
-TEST(SessionControl, APassThatIsHeldGoesOnWhereItWasLeft) {
+TEST(SessionControl, APassThatIsHeldIsContinued) {
   Document d = small_cornell(6, 203, 151);
   d.settings.path.light_samples = 16; // a sample a pass
   RenderSession session;

@@ -17,7 +17,7 @@ inline Document small_cornell(int spp = 4, int width = 61, int height = 43) {
   return cornell_flush(width, height, spp, true).document;
 }
 
-/// Samples that take long, whatever the film's size: the inside of glass that no ray leaves, without
+/// Samples that take long for any film size: the inside of glass that no ray leaves, without
 /// roulette.
 inline Document slow_document() {
   SceneMaker s(96, 96, 1);

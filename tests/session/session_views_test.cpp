@@ -48,7 +48,7 @@ TEST(RenderSession, StopsAtTheNoiseWhereTheHeadlessRenderDoes) {
   EXPECT_EQ(session.latest()->spp, headless.spp);
   EXPECT_TRUE(session.latest()->linear == headless.film.image().pixels);
 
-  d.settings.stop.noise = 0.05f; // goes on from there
+  d.settings.stop.noise = 0.05f; // continues from there
   ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.status().restarts, 1u);
   EXPECT_GT(session.latest()->spp, headless.spp);

@@ -18,7 +18,7 @@ TEST(UrgentThread, RunsWorkOnAThreadOfItsOwnAndWaits) {
   EXPECT_NE(ran, std::this_thread::get_id());
 }
 
-TEST(UrgentThread, HandsOnWhatTheWorkThrowsAndGoesOn) {
+TEST(UrgentThread, RethrowsWhatTheWorkThrowsAndContinues) {
   UrgentThread urgent([] {});
   EXPECT_THROW(urgent.run([] { throw std::runtime_error("full"); }), std::runtime_error);
   int done = 0;

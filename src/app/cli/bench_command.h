@@ -1,5 +1,5 @@
 #pragma once
-// `candela bench interactive`: how long from hand to picture, and who gets the cores meanwhile.
+// `candela bench interactive`: input latency, and the shares of the cores meanwhile.
 
 #include "app/console/scene_options.h"
 

@@ -181,8 +181,9 @@ int run(int argc, char** argv) {
   auto* bench = app.add_subcommand("bench", "Measure this machine with this program");
   bench->require_subcommand(1);
   auto* interactive = bench->add_subcommand(
-      "interactive", "From hand to picture: a scripted flight and edits in a real window (in memory where "
-                     "there is no display); ms to the first image, frames, shares of the cores");
+      "interactive",
+      "Input latency: a scripted flight and edits in a real window (in memory where there is no "
+      "display); ms to the first image, frames, shares of the cores");
   add_common_options(*interactive, bench_options.scene);
   interactive->add_option("--size", bench_options.size, "Size of the window, WxH; else 1280x720");
   add_number(*interactive, "--repeats", bench_options.repeats, range(1, 1000), "Inputs of each kind");

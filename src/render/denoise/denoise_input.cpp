@@ -13,7 +13,7 @@ constexpr float kColorFloor = 1e-3f;
 constexpr float kFeatureFloor = 3e-3f;
 constexpr float kSmallest = 1e-12f;
 
-constexpr int kFeatureRadius = 5; ///< of the window in which a feature's likes are looked for
+constexpr int kFeatureRadius = 5; ///< of the window that is searched for similar features
 constexpr float kFeatureK = 1;    ///< how much unlike they may be
 
 Planes planes_of(const Image& image) {

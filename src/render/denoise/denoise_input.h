@@ -1,5 +1,5 @@
 #pragma once
-// What comes before the denoiser's regression: numbers it can trust.
+// What comes before the denoiser's regression: its inputs, filtered.
 
 #include "render/denoise/denoise_tile.h"
 #include "render/denoise/denoiser.h"
@@ -12,8 +12,8 @@ namespace candela::denoising {
 Halves prepare_color(const NoisyImage& color);
 
 /// Writes the feature into three channels of `out`, without its noise (antialiasing, depth of field) as far
-/// as that can be told from its edges: cross-filtered by non-local means, as Bitterli et al. 2016, section
-/// 4.2. Stops between tiles where `stop` is set.
+/// as that can be separated from its edges: cross-filtered by non-local means, as Bitterli et al. 2016,
+/// section 4.2. Stops between tiles where `stop` is set.
 void prepare_feature(const NoisyImage& feature, Planes& out, int first_channel, int threads,
                      const std::atomic<bool>& stop);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The denoiser's heart: weighted least squares, a tile at a time.
+// The denoiser's regression: weighted least squares, a tile at a time.
 
 #include "render/denoise/denoise_tile.h"
 
@@ -7,13 +7,13 @@ namespace candela::denoising {
 
 /// Albedo, normal, position.
 inline constexpr int kFeatures = 9;
-/// Of the window in which a pixel's likes are looked for: 19x19 pixels.
+/// Radius of the window that is searched for similar pixels: 19x19 pixels.
 inline constexpr int kWindow = 9;
 
 /// For each pixel i of a tile the model colour(j) = a_i + b_i . (feature(j) - feature(i)) that fits its
-/// window's pixels j best, weighted by how alike the patches about i and j are; and what every such model
-/// says of each of its pixels (Bitterli et al. 2016, section 3 and, "collaborative filtering", 3.2: all that
-/// is known of a pixel, not only by the model that is centred on it).
+/// window's pixels j best, weighted by the similarity of the patches about i and j; and the prediction of
+/// every such model for each of its pixels (Bitterli et al. 2016, section 3 and, "collaborative
+/// filtering", 3.2: a pixel is estimated by all models, not only by the one that is centred on it).
 class TileRegression {
 public:
   /// Adds to `out`, four channels: weighted sums of the predictions of `color`, and the weights. The weights

@@ -43,8 +43,8 @@ struct TileGrid {
   ivec2 origin(int tile) const { return {tile % columns * kTileWidth, tile / columns * kTileHeight}; }
 };
 
-/// e^-x for x >= 0, to a few percent and exactly 0 from 16 on: no more is asked of a weight, and it is made
-/// of multiplications.
+/// e^-x for x >= 0, to a few percent and exactly 0 from 16 on, which is enough for a weight; made of
+/// multiplications.
 inline float falloff(float x) {
   float b = std::max(1 - x * (1 / 16.0f), 0.0f);
   b *= b, b *= b, b *= b;

@@ -13,7 +13,7 @@ using namespace denoising;
 namespace {
 
 /// Tiles that are so many apart write to no pixel in common: they may run at once, and as those of one phase
-/// follow those of the last, every pixel's sum has one order whatever the threads do.
+/// follow those of the last, every pixel's sum has one order for any number of threads.
 constexpr int kColumnPhases = 2, kRowPhases = 3;
 static_assert(kTileWidth * (kColumnPhases - 1) >= 2 * kWindow &&
               kTileHeight * (kRowPhases - 1) >= 2 * kWindow);

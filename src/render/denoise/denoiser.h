@@ -9,8 +9,8 @@
 
 namespace candela {
 
-/// A mean of random samples a pixel, in two halves of independent samples: what is learnt from the one is
-/// applied to the other, so that noise does not vouch for itself.
+/// A mean of random samples a pixel, in two halves of independent samples: weights from one half are
+/// applied to the other, so that they are independent of its noise.
 struct NoisyImage {
   std::array<Image, 2> half; ///< means of either half of the samples
   Image variance;            ///< of the mean of both, per channel

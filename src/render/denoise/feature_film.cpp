@@ -10,9 +10,9 @@ namespace candela {
 
 namespace {
 
-/// Specular surfaces in a row that are looked through; the next one is taken for what is seen.
+/// Specular surfaces in a row that a path follows; the features are those of the next one.
 constexpr int kMaxSpecular = 8;
-/// Share of specular scattering from which on a surface is looked through.
+/// Share of specular scattering from which on a surface is followed.
 constexpr float kSpecular = 0.999f;
 
 struct Features {
@@ -40,7 +40,7 @@ public:
       Hit hit;
       if (!intersect_scene(scene_, ray, sampler, hit, ignored)) {
         seen.albedo = seen.normal = vec3(0);
-        seen.position = ray.direction; // farther than all that is there, which is enough to tell it apart
+        seen.position = ray.direction; // farther than the whole scene, so that it differs
         return seen;
       }
       Surface surface = scene_.geometry().surface(ray, hit);

@@ -1,6 +1,6 @@
 #pragma once
-// What the denoiser is guided by: per pixel, the first surface that is not specular, seen along the same
-// camera rays as the image. It is gathered beside the render, which therefore pays nothing for it.
+// The features that guide the denoiser: per pixel, the first surface that is not specular, seen along the
+// same camera rays as the image. It is gathered beside the render, which therefore pays nothing for it.
 
 #include "render/denoise/denoiser.h"
 #include "render/world/render_scene.h"
@@ -16,7 +16,7 @@ public:
   /// Samples a pixel so far.
   std::uint32_t spp() const { return spp_; }
 
-  /// Means over the even and the odd samples, as the denoiser takes them; asks for two samples a pixel.
+  /// Means over the even and the odd samples, as the denoiser takes them; needs two samples a pixel.
   void resolve(NoisyImage& albedo, NoisyImage& normal, NoisyImage& position) const;
 
 private:

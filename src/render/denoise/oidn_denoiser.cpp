@@ -14,7 +14,7 @@ namespace {
 
 static_assert(sizeof(vec3) == 3 * sizeof(float)); // as Format::Float3 is laid out
 
-/// The filter asks now and then; false cancels it.
+/// The filter calls it from time to time; false cancels it.
 bool goes_on(void* stop, double) {
   return !static_cast<const std::atomic<bool>*>(stop)->load(std::memory_order_relaxed);
 }

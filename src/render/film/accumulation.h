@@ -36,7 +36,7 @@ public:
   /// All that it is, as plain values: what a checkpoint stores and a rank sends.
   struct State {
     AccumulationOptions options;
-    Film film;
+    Film film;                      ///< pixels that the first pass has not visited yet mean nothing
     std::array<Film, 3> components; ///< emitted, direct, indirect, where asked for
     /// Of the first pass: distance of the pixels that have their sample, 0: none; of those that are next, 0:
     /// it is complete.
@@ -84,7 +84,7 @@ public:
   bool advance(PassRenderer& renderer, const RenderScene& scene, const Document& document,
                const Limits& limits);
 
-  /// The pass that comes next, for who decides between passes; document.settings.stop must not be reached.
+  /// The pass that comes next, for a caller that decides between passes; `until` must not be reached.
   /// stop.spp and stop.noise bound its samples.
   Pass next(const StopSettings& until, const Portion& portion) const;
   /// Renders it; ends early at `stop` or at document.settings.stop.time.

@@ -22,7 +22,7 @@ PixelBox clip(const CropWindow& window, const Film& film) {
           std::min(window.y + window.height, hi.y)};
 }
 
-/// The frame's grid of tiles, as far as it lies in a window: it is the same whatever window is rendered.
+/// The frame's grid of tiles, as far as it lies in a window: it does not depend on the window.
 class TileGrid {
 public:
   explicit TileGrid(const PixelBox& window)

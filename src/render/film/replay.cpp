@@ -6,7 +6,7 @@ vec3 replay_sample(const RenderScene& scene, const Document& document, uvec2 pix
   return PixelSampler(scene, document, {}).sample({pixel, sample}).value;
 }
 
-// Once a sum is not finite it stays so, whatever is added: so the depth is doubled and then bisected.
+// A sum that is not finite stays so when terms are added: so the depth is doubled and then bisected.
 int nonfinite_depth(const RenderScene& scene, const Document& document, const SampleIndex& index) {
   Document limited = document;
   auto is_finite_up_to = [&](int depth) {

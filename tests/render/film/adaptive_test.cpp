@@ -51,7 +51,7 @@ TEST(AdaptiveRender, DoesNotDependOnThreadsOrOnHowPassesDivideTheSamples) {
   EXPECT_GT(counts.size(), 3u) << "every block took the same number";
 }
 
-TEST(AdaptiveRender, StoppedBlocksAreAsGoodAsAskedAndOthersGoOn) {
+TEST(AdaptiveRender, StoppedBlocksAreAsGoodAsAskedAndOthersContinue) {
   const float error = 0.1f;
   Document d = adaptive_document(error, 8);
   Film film = render(d);

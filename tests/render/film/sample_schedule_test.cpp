@@ -1,4 +1,4 @@
-// Every pixel gets every sample index once, whatever regions come and go.
+// Every pixel gets every sample index once, for any sequence of regions.
 
 #include "render/film/sample_schedule.h"
 #include "support/seed.h"
