@@ -46,7 +46,7 @@ public:
       : stop_(stop), scene_(scene), settings_(document.settings), view_(accumulated_view(settings_.view)),
         rays_(document), sampler_(PixelRays::sampler(settings_.sampler)),
         paths_(scene, path_settings(settings_)) {
-    if (scene.has_absorption()) camera_interiors_ = interiors_at(scene, rays_.camera().position());
+    if (scene.has_media()) camera_media_ = media_at(scene, rays_.camera().position());
   }
 
   /// results[i] becomes what sample indices[i] adds to its pixel. False, and results of no use, where it was
@@ -116,9 +116,9 @@ private:
     weights_.resize(indices.size());
     for (std::size_t i = 0; i < indices.size(); ++i) {
       weights_[i] = rays_.at(indices[i].pixel, film_[i], lens_[i], starts_[i].ray);
-      if (!scene_.has_absorption()) continue;
-      starts_[i].interiors = camera_interiors_;
-      move_between(scene_, rays_.camera().position(), starts_[i].ray.origin, starts_[i].interiors);
+      if (!scene_.has_media()) continue;
+      starts_[i].media = camera_media_;
+      move_between(scene_, rays_.camera().position(), starts_[i].ray.origin, starts_[i].media);
     }
   }
 
@@ -157,7 +157,7 @@ private:
                       luminance(parts.more)};
       break;
     case View::light_share:
-      result.value = {luminance(parts.aimed), luminance(parts.direct + parts.indirect() - parts.aimed), 0};
+      result.value = {luminance(parts.light_sampled), luminance(parts.direct + parts.indirect() - parts.light_sampled), 0};
       break;
     default:
       result.value = parts.radiance();
@@ -172,8 +172,8 @@ private:
   PixelRays rays_;
   Sampler sampler_; ///< of the document's kind
   PathTracer paths_;
-  DirectLightOfOne direct_light_;
-  Interiors camera_interiors_; ///< in scenes with absorption
+  ScalarDirectLight direct_light_;
+  MediumStack camera_media_; ///< in scenes with absorption
   // Parallel to the samples in flight:
   std::vector<PathStart> starts_;
   std::vector<Sampler::Draw> draws_;

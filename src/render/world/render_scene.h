@@ -2,6 +2,8 @@
 // A Document made ready to render; const while it is.
 
 #include "bsdf/bsdf.h"
+#include "media/medium.h"
+#include "media/medium_stack.h"
 #include "render/lights/emitter_lights.h"
 #include "render/lights/light_selection.h"
 #include "render/world/geometry.h"
@@ -9,21 +11,18 @@
 
 namespace candela {
 
-/// Where a surface bounds no body that light enters.
-inline constexpr std::uint16_t kNoInterior = 0xffff;
-
 /// A material as shading needs it.
 struct SurfaceMaterial {
   Bsdf bsdf;
   const Texture* diffuse_texture = nullptr; ///< multiplies the BSDF's diffuse part; null: none
   UvTransform diffuse_uv;                   ///< of that texture
-  vec3 emission{0};                         ///< W/(m^2 sr)
+  Spectrum emission{0};                     ///< W/(m^2 sr)
   float opacity = 1;
   bool emissive = false;
   bool two_sided_emission = false;
-  /// What is behind the surface: RenderScene::absorption() tells its absorption. The same number for bodies
-  /// that absorb the same; of a clear dielectric, too, where anything absorbs: it may lie inside of that.
-  std::uint16_t interior = kNoInterior;
+  /// By RenderScene::medium(). Bodies that absorb the same have the same medium; where anything absorbs, a
+  /// clear dielectric has one, too, for it may lie inside of that.
+  MediumInterface media;
 };
 
 class RenderScene {
@@ -43,18 +42,17 @@ public:
   const SurfaceMaterial& material(std::uint32_t index) const { return materials_[index]; }
   /// Whether any surface lets light straight through, so that rays must look.
   bool has_transparency() const { return has_transparency_; }
-  /// Whether light fades on its way through any body, so that rays must know where they are.
-  bool has_absorption() const { return !absorptions_.empty(); }
-  /// sigma_a of an interior, 1/scene unit.
-  vec3 absorption(std::uint16_t interior) const { return absorptions_[interior]; }
+  /// Whether any body is filled with something, so that rays must know where they are.
+  bool has_media() const { return !media_.empty(); }
+  const Medium& medium(MediumId id) const { return media_[id.index]; }
 
   const std::vector<Light>& lights() const { return lights_; }
   /// The light that a primitive is (part of), or kNoLight.
   std::uint32_t light_of(std::uint64_t emitter) const { return light_of_emitter_[emitter]; }
   const std::vector<std::uint32_t>& infinite_lights() const { return infinite_lights_; }
 
-  /// Choice of a light as path.light_choice has it: among all, or among those that no direction can hit by
-  /// chance.
+  /// Choice of a light as path.light_choice has it: among all, or among those that light sampling alone can
+  /// find.
   const LightSelection& all_lights() const { return all_lights_; }
   const LightSelection& delta_lights() const { return delta_lights_; }
 
@@ -71,10 +69,10 @@ private:
   std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
   LightSelection all_lights_, delta_lights_;
   bool has_transparency_ = false;
-  std::vector<vec3> absorptions_; ///< by interior; empty where nothing absorbs
+  std::vector<Medium> media_; ///< empty where nothing absorbs
 
   void add_materials(const Document& document);
-  void add_interiors(const std::vector<Material>& materials);
+  void add_media(const std::vector<Material>& materials);
   void add_emitters(const Progress* progress);
   void add_lights(const std::vector<LightDesc>& lights, const RenderScene* previous,
                   const Progress* progress);
