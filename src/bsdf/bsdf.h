@@ -6,36 +6,71 @@
 #include "bsdf/ggx.h"
 #include "bsdf/mirror.h"
 #include "bsdf/phong.h"
-
-#include <variant>
+#include "core/variant.h"
 
 namespace candela {
 
-static_assert(BsdfModel<Diffuse> && BsdfModel<Phong> && BsdfModel<Ggx> && BsdfModel<Mirror> &&
-              BsdfModel<Dielectric>);
-
-/// libstdc++ visits up to eleven alternatives by a switch, which the compiler inlines.
+/// All models: a new one is a file of its own, and a name here.
 using Bsdf = std::variant<Diffuse, Phong, Ggx, Mirror, Dielectric>;
 
-// As BsdfModel's members of the same names.
+namespace detail {
 
-inline vec3 bsdf_eval(const Bsdf& bsdf, vec3 wo, vec3 wi) {
-  return std::visit([&](const auto& model) { return model.eval(wo, wi); }, bsdf);
+template <class... Models>
+constexpr bool are_bsdf_models(const std::variant<Models...>*) {
+  return (BsdfModel<Models> && ...);
+}
+static_assert(are_bsdf_models(static_cast<const Bsdf*>(nullptr)));
+
+} // namespace detail
+
+// As BsdfModel's members of the same names. Of symmetric models the mode makes no difference.
+
+inline Spectrum bsdf_eval(const Bsdf& bsdf, vec3 wo, vec3 wi, TransportMode mode = TransportMode::radiance) {
+  return visit_variant(
+      [&](const auto& model) {
+        if constexpr (requires { model.eval(wo, wi, mode); })
+          return model.eval(wo, wi, mode);
+        else
+          return model.eval(wo, wi);
+      },
+      bsdf);
 }
 inline float bsdf_pdf(const Bsdf& bsdf, vec3 wo, vec3 wi) {
-  return std::visit([&](const auto& model) { return model.pdf(wo, wi); }, bsdf);
+  return visit_variant([&](const auto& model) { return model.pdf(wo, wi); }, bsdf);
 }
-inline BsdfEval bsdf_eval_pdf(const Bsdf& bsdf, vec3 wo, vec3 wi) {
-  return std::visit([&](const auto& model) { return model.eval_pdf(wo, wi); }, bsdf);
+inline BsdfEval bsdf_eval_pdf(const Bsdf& bsdf, vec3 wo, vec3 wi,
+                              TransportMode mode = TransportMode::radiance) {
+  return visit_variant(
+      [&](const auto& model) {
+        if constexpr (requires { model.eval_pdf(wo, wi, mode); })
+          return model.eval_pdf(wo, wi, mode);
+        else
+          return model.eval_pdf(wo, wi);
+      },
+      bsdf);
 }
-inline std::optional<BsdfSample> bsdf_sample(const Bsdf& bsdf, vec3 wo, BsdfU u) {
-  return std::visit([&](const auto& model) { return model.sample(wo, u); }, bsdf);
+inline std::optional<BsdfSample> bsdf_sample(const Bsdf& bsdf, vec3 wo, BsdfU u,
+                                             TransportMode mode = TransportMode::radiance) {
+  return visit_variant(
+      [&](const auto& model) {
+        if constexpr (requires { model.sample(wo, u, mode); })
+          return model.sample(wo, u, mode);
+        else
+          return model.sample(wo, u);
+      },
+      bsdf);
 }
 inline float bsdf_delta_probability(const Bsdf& bsdf, vec3 wo) {
-  return std::visit([&](const auto& model) { return model.delta_probability(wo); }, bsdf);
+  return visit_variant([&](const auto& model) { return model.delta_probability(wo); }, bsdf);
 }
-inline vec3 bsdf_albedo(const Bsdf& bsdf) {
-  return std::visit([](const auto& model) { return model.albedo(); }, bsdf);
+inline BsdfFlags bsdf_flags(const Bsdf& bsdf) {
+  return visit_variant([](const auto& model) { return model.flags(); }, bsdf);
+}
+inline LobeProxy bsdf_lobe_proxy(const Bsdf& bsdf, vec3 wo) {
+  return visit_variant([&](const auto& model) { return model.lobe_proxy(wo); }, bsdf);
+}
+inline Spectrum bsdf_albedo(const Bsdf& bsdf) {
+  return visit_variant([](const auto& model) { return model.albedo(); }, bsdf);
 }
 
 } // namespace candela

@@ -4,7 +4,9 @@
 // Directions are unit vectors in the local frame whose +z is the shading normal, and both point away from the
 // surface. Reflecting models are two-sided: below the surface (wo.z < 0) they act as above it, mirrored.
 
-#include "core/math.h"
+#include "bsdf/bsdf_flags.h"
+#include "bsdf/lobe_proxy.h"
+#include "core/spectrum.h"
 #include "sampling/warp.h"
 
 #include <concepts>
@@ -26,19 +28,19 @@ struct BsdfU {
 struct BsdfSample {
   vec3 wi;
   /// f(wo, wi) |cos theta_i| / pdf, with every probability of the choice in it (the lobe's, too).
-  vec3 weight;
+  Spectrum weight;
   /// Of a non-delta lobe: density of wi in 1/sr, as BsdfModel::pdf gives it. Of a delta lobe: the probability
   /// of having chosen it (no density; do not combine it by MIS).
   float pdf;
   bool delta;
-  /// Refractive index on wi's side over that on wo's side; 1 for reflection. The weight of a refraction has
-  /// a factor 1 / eta^2 in it, which Russian roulette should undo.
+  /// Refractive index on wi's side over that on wo's side; 1 for reflection. Under TransportMode::radiance
+  /// the weight of a refraction has a factor 1 / eta^2 in it, which Russian roulette should undo.
   float eta = 1;
 };
 
 struct BsdfEval {
-  vec3 f_cos; ///< f(wo, wi) |cos theta_i|, 1/sr
-  float pdf;  ///< 1/sr
+  Spectrum f_cos; ///< f(wo, wi) |cos theta_i|, 1/sr
+  float pdf;      ///< 1/sr
 };
 
 /// - eval: f(wo, wi) |cos theta_i| in 1/sr of the part without delta lobes.
@@ -48,15 +50,22 @@ struct BsdfEval {
 /// - sample: a delta lobe exactly where u.lobe < delta_probability(wo). Nothing where the sample carries no
 ///   light (absorbed, or a direction below the surface): it counts as a sample of value 0.
 /// - delta_probability: with which sample() takes a delta lobe (0: there is none, 1: there is nothing else).
+/// - flags: what it does at all, see BsdfFlags.
+/// - lobe_proxy: roughly how much it reflects from where, for choosing a light.
 /// - albedo: rough reflectance, for the albedo view only.
+///
+/// Models that are not symmetric in wo and wi (those that refract) take a TransportMode as the last argument
+/// of sample(), and of eval() and eval_pdf() if they have more than delta lobes.
 template <class B>
 concept BsdfModel = requires(const B& b, vec3 wo, vec3 wi, BsdfU u) {
-  { b.eval(wo, wi) } -> std::same_as<vec3>;
+  { b.eval(wo, wi) } -> std::same_as<Spectrum>;
   { b.pdf(wo, wi) } -> std::same_as<float>;
   { b.eval_pdf(wo, wi) } -> std::same_as<BsdfEval>;
   { b.sample(wo, u) } -> std::same_as<std::optional<BsdfSample>>;
   { b.delta_probability(wo) } -> std::same_as<float>;
-  { b.albedo() } -> std::same_as<vec3>;
+  { b.flags() } -> std::same_as<BsdfFlags>;
+  { b.lobe_proxy(wo) } -> std::same_as<LobeProxy>;
+  { b.albedo() } -> std::same_as<Spectrum>;
 };
 
 /// Both on the same side of the surface, and neither in it.

@@ -11,7 +11,7 @@ namespace candela {
 struct DeltaLobe {
   vec3 wi{0}; ///< local, unit
   /// Radiance that leaves along wo for one that arrives from wi (the 1/eta^2 of a refraction included).
-  vec3 transfer{0};
+  Spectrum transfer{0};
   float eta = 1; ///< as in BsdfSample
 };
 

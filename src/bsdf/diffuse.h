@@ -6,10 +6,10 @@ namespace candela {
 
 /// Lambertian reflection: f = reflectance / pi.
 struct Diffuse {
-  vec3 reflectance{0.5f};
+  Spectrum reflectance{0.5f};
 
-  vec3 eval(vec3 wo, vec3 wi) const {
-    return same_hemisphere(wo, wi) ? reflectance * (std::abs(wi.z) * kInvPi) : vec3(0);
+  Spectrum eval(vec3 wo, vec3 wi) const {
+    return same_hemisphere(wo, wi) ? reflectance * (std::abs(wi.z) * kInvPi) : Spectrum(0);
   }
   float pdf(vec3 wo, vec3 wi) const { return same_hemisphere(wo, wi) ? std::abs(wi.z) * kInvPi : 0; }
   BsdfEval eval_pdf(vec3 wo, vec3 wi) const {
@@ -23,7 +23,9 @@ struct Diffuse {
     return BsdfSample{wi, reflectance, cosine_pdf, false};
   }
   float delta_probability(vec3) const { return 0; }
-  vec3 albedo() const { return reflectance; }
+  BsdfFlags flags() const { return BsdfFlags::reflection | BsdfFlags::diffuse; }
+  LobeProxy lobe_proxy(vec3) const { return {}; }
+  Spectrum albedo() const { return reflectance; }
 };
 
 } // namespace candela

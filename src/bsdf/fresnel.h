@@ -1,7 +1,7 @@
 #pragma once
 // Reflectance of smooth interfaces, and refraction.
 
-#include "core/math.h"
+#include "core/spectrum.h"
 
 #include <optional>
 
@@ -31,10 +31,10 @@ inline std::optional<vec3> refract(vec3 wo, float eta) {
 
 /// Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering", eq. 15; f0 is the reflectance at
 /// normal incidence.
-inline vec3 fresnel_schlick(vec3 f0, float cos_theta) {
+inline Spectrum fresnel_schlick(Spectrum f0, float cos_theta) {
   float m = std::clamp(1 - cos_theta, 0.0f, 1.0f);
   float m5 = sqr(sqr(m)) * m;
-  return f0 + (vec3(1) - f0) * m5;
+  return f0 + (Spectrum(1) - f0) * m5;
 }
 
 } // namespace candela

@@ -2,6 +2,7 @@
 
 #include "bsdf/bsdf_sample.h"
 #include "bsdf/fresnel.h"
+#include "core/color.h"
 
 namespace candela {
 
@@ -15,18 +16,18 @@ namespace candela {
 /// Visible GGX Normals with Spherical Caps"), the cap being cut to what can reflect upwards (Eto & Tokuyoshi
 /// 2023, "Bounded VNDF Sampling for Smith-GGX Reflections").
 struct Ggx {
-  vec3 specular{0.9f};    ///< reflectance at normal incidence, F0
-  float roughness = 0.3f; ///< alpha = roughness^2, which is about linear to the eye
+  Spectrum specular{0.9f}; ///< reflectance at normal incidence, F0
+  float roughness = 0.3f;  ///< alpha = roughness^2, which is about linear to the eye
 
   /// Below this a facet normal's float digits no longer resolve the lobe.
   static constexpr float kMinAlpha = 1e-3f;
   float alpha() const { return std::max(sqr(roughness), kMinAlpha); }
 
-  vec3 eval(vec3 wo, vec3 wi) const { return eval_pdf(wo, wi).f_cos; }
+  Spectrum eval(vec3 wo, vec3 wi) const { return eval_pdf(wo, wi).f_cos; }
   float pdf(vec3 wo, vec3 wi) const { return eval_pdf(wo, wi).pdf; }
 
   BsdfEval eval_pdf(vec3 wo, vec3 wi) const {
-    if (!same_hemisphere(wo, wi)) return {vec3(0), 0};
+    if (!same_hemisphere(wo, wi)) return {Spectrum(0), 0};
     float a = alpha();
     vec3 h = glm::normalize(wo + wi);
     float cos_o = std::abs(wo.z), cos_i = std::abs(wi.z);
@@ -34,8 +35,8 @@ struct Ggx {
     // G1(w) = 2 cos / (cos + projected(w)), and G2 / (4 cos_o cos_i) = 1 / (2 (cos_o projected(i) + cos_i
     // projected(o))).
     float projected_o = projected_area(wo, a), projected_i = projected_area(wi, a);
-    vec3 f_cos = fresnel_schlick(specular, glm::dot(wo, h)) *
-                 (0.5f * d * cos_i / (cos_o * projected_i + cos_i * projected_o));
+    Spectrum f_cos = fresnel_schlick(specular, glm::dot(wo, h)) *
+                     (0.5f * d * cos_i / (cos_o * projected_i + cos_i * projected_o));
     return {f_cos, d / (2 * (cap_scale(wo, a) * cos_o + projected_o))};
   }
 
@@ -56,7 +57,15 @@ struct Ggx {
   }
 
   float delta_probability(vec3) const { return 0; }
-  vec3 albedo() const { return specular; }
+  BsdfFlags flags() const { return BsdfFlags::reflection | BsdfFlags::glossy; }
+  /// With the half vector at delta / 2, as it is in the plane of wo and the normal. A little of the peak is
+  /// given to all directions, for the lobe's tails are longer than the proxy's.
+  LobeProxy lobe_proxy(vec3 wo) const {
+    const float a = alpha(), reflectance = luminance(specular);
+    const float peak = reflectance * distribution({0, 0, 1}, a) / (4 * std::max(projected_area(wo, a), a));
+    return {0.02f * reflectance * kInvPi, peak, 0.5f / sqr(a)};
+  }
+  Spectrum albedo() const { return specular; }
 
   /// D(h): area of facets by normal, per area and sr; D(h) |cos theta_h| integrates to 1. By components
   /// instead of angles: no cancellation near the normal.

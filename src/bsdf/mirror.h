@@ -7,11 +7,11 @@ namespace candela {
 
 /// Ideal mirror, with a Lambertian lobe beside it where `diffuse` is not 0; the lobe is chosen by luminance.
 struct Mirror {
-  vec3 specular{0.9f};
-  vec3 diffuse{0};
+  Spectrum specular{0.9f};
+  Spectrum diffuse{0};
 
-  vec3 eval(vec3 wo, vec3 wi) const {
-    return same_hemisphere(wo, wi) ? diffuse * (std::abs(wi.z) * kInvPi) : vec3(0);
+  Spectrum eval(vec3 wo, vec3 wi) const {
+    return same_hemisphere(wo, wi) ? diffuse * (std::abs(wi.z) * kInvPi) : Spectrum(0);
   }
   float pdf(vec3 wo, vec3 wi) const {
     return same_hemisphere(wo, wi) ? (1 - delta_probability(wo)) * std::abs(wi.z) * kInvPi : 0;
@@ -34,7 +34,13 @@ struct Mirror {
     float d = luminance(diffuse);
     return d > 0 ? luminance(specular) / (luminance(specular) + d) : 1;
   }
-  vec3 albedo() const { return specular + diffuse; }
+  BsdfFlags flags() const {
+    const BsdfFlags beside = luminance(diffuse) > 0 ? BsdfFlags::diffuse : BsdfFlags::none;
+    return BsdfFlags::reflection | BsdfFlags::delta | beside;
+  }
+  /// Of the Lambertian lobe: no light sample finds the other.
+  LobeProxy lobe_proxy(vec3) const { return {}; }
+  Spectrum albedo() const { return specular + diffuse; }
 };
 
 } // namespace candela

@@ -13,21 +13,21 @@ namespace candela {
 /// with alpha between wi and the mirror image of wo. Sampled as a mixture of its lobes (their pdf is the
 /// mixture's) that are chosen by luminance; the glossy lobe's directions below the surface fail.
 struct Phong {
-  vec3 diffuse{0.5f};
-  vec3 specular{0};
+  Spectrum diffuse{0.5f};
+  Spectrum specular{0};
   float exponent = 40; ///< n >= 0
 
-  vec3 eval(vec3 wo, vec3 wi) const { return eval_pdf(wo, wi).f_cos; }
+  Spectrum eval(vec3 wo, vec3 wi) const { return eval_pdf(wo, wi).f_cos; }
   float pdf(vec3 wo, vec3 wi) const { return eval_pdf(wo, wi).pdf; }
 
   BsdfEval eval_pdf(vec3 wo, vec3 wi) const {
-    if (!same_hemisphere(wo, wi)) return {vec3(0), 0};
+    if (!same_hemisphere(wo, wi)) return {Spectrum(0), 0};
     float cos_alpha = std::max(glm::dot(reflect_about_normal(wo), wi), 0.0f);
     float lobe =
         cos_alpha > 0 ? std::pow(std::min(cos_alpha, 1.0f), exponent) * (0.5f * kInvPi) : 0; // 0^0 is 0 here
     float cos_theta_i = std::abs(wi.z);
     float p = specular_probability();
-    vec3 f = diffuse * kInvPi + specular * ((exponent + 2) * lobe);
+    Spectrum f = diffuse * kInvPi + specular * ((exponent + 2) * lobe);
     return {f * cos_theta_i, (1 - p) * cos_theta_i * kInvPi + p * (exponent + 1) * lobe};
   }
 
@@ -48,7 +48,13 @@ struct Phong {
   }
 
   float delta_probability(vec3) const { return 0; }
-  vec3 albedo() const { return diffuse + specular; }
+  BsdfFlags flags() const { return BsdfFlags::reflection | BsdfFlags::diffuse | BsdfFlags::glossy; }
+  /// cos^n is about (1 + n / 2 (1 - cos))^-2 near the axis.
+  LobeProxy lobe_proxy(vec3) const {
+    return {luminance(diffuse) * kInvPi, luminance(specular) * (exponent + 2) * (0.5f * kInvPi),
+            0.5f * exponent};
+  }
+  Spectrum albedo() const { return diffuse + specular; }
 
   /// Of the glossy lobe's being sampled.
   float specular_probability() const {

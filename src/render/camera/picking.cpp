@@ -20,7 +20,7 @@ std::optional<Pick> pick(const RenderScene& scene, const Document& document, vec
   Ray ray = camera.ray(film_position, vec2(0));
   auto hit = scene.geometry().accel().intersect(ray);
   if (!hit) return std::nullopt;
-  Surface surface = scene.geometry().surface(ray, *hit);
+  SurfaceInteraction surface = scene.geometry().surface(ray, *hit);
   Pick p;
   p.position = surface.position;
   p.geometric_normal = glm::dot(surface.geometric_normal, ray.direction) > 0 ? -surface.geometric_normal

@@ -43,7 +43,7 @@ public:
         seen.position = ray.direction; // farther than the whole scene, so that it differs
         return seen;
       }
-      Surface surface = scene_.geometry().surface(ray, hit);
+      SurfaceInteraction surface = scene_.geometry().surface(ray, hit);
       const SurfaceMaterial& material = scene_.material(surface.material);
       vec3 wo = -ray.direction;
       Bsdf bsdf = material.diffuse_texture != nullptr

@@ -27,7 +27,7 @@ PixelSampler::PixelSampler(const RenderScene& scene, const Document& document, c
     : stop_(stop), scene_(scene), settings_(document.settings), view_(accumulated_view(settings_.view)),
       rays_(document), sampler_(PixelRays::sampler(settings_.sampler)),
       paths_(scene, path_settings(settings_)) {
-  if (scene.has_absorption()) camera_interiors_ = interiors_at(scene, rays_.camera().position());
+  if (scene.has_media()) camera_media_ = media_at(scene, rays_.camera().position());
 }
 
 bool PixelSampler::sample(std::span<const SampleIndex> indices, std::span<PixelSample> results,
@@ -90,9 +90,9 @@ void PixelSampler::start(std::span<const SampleIndex> indices) {
   weights_.resize(indices.size());
   for (std::size_t i = 0; i < indices.size(); ++i) {
     weights_[i] = rays_.at(indices[i].pixel, film_[i], lens_[i], starts_[i].ray);
-    if (!scene_.has_absorption()) continue;
-    starts_[i].interiors = camera_interiors_;
-    move_between(scene_, rays_.camera().position(), starts_[i].ray.origin, starts_[i].interiors);
+    if (!scene_.has_media()) continue;
+    starts_[i].media = camera_media_;
+    move_between(scene_, rays_.camera().position(), starts_[i].ray.origin, starts_[i].media);
   }
 }
 
@@ -131,7 +131,7 @@ void PixelSampler::show(const PathSample& parts, PixelSample& result) const {
                     luminance(parts.more)};
     break;
   case View::light_share:
-    result.value = {luminance(parts.aimed), luminance(parts.direct + parts.indirect() - parts.aimed), 0};
+    result.value = {luminance(parts.light_sampled), luminance(parts.direct + parts.indirect() - parts.light_sampled), 0};
     break;
   default:
     result.value = parts.radiance();

@@ -48,8 +48,8 @@ private:
   PixelRays rays_;
   Sampler sampler_; ///< of the document's kind
   PathTracer paths_;
-  DirectLightOfOne direct_light_;
-  Interiors camera_interiors_; ///< in scenes with absorption
+  ScalarDirectLight direct_light_;
+  MediumStack camera_media_; ///< in scenes with media
   // Parallel to the samples in flight:
   std::vector<PathStart> starts_;
   std::vector<Sampler::Draw> draws_;

@@ -7,7 +7,7 @@ float ambient_occlusion(const RenderScene& scene, Ray ray, Sampler& sampler, con
   sampler.set_bounce(1);
   Hit hit;
   if (!intersect_scene(scene, ray, sampler, hit, counts)) return 1;
-  Surface surface = scene.geometry().surface(ray, hit);
+  SurfaceInteraction surface = scene.geometry().surface(ray, hit);
   vec3 normal = surface.geometric_normal; // the interpolated one's hemisphere reaches below the surface
   if (glm::dot(normal, ray.direction) > 0) normal = -normal;
   Basis frame = Basis::from_normal(normal);

@@ -3,69 +3,70 @@
 namespace candela {
 
 /// Random numbers for the index-th of so many light samples.
-void DirectLight::draw(const LightSeekers& seekers, std::uint32_t index, int samples) {
+void DirectLight::draw_numbers(const ShadingPoints& points, std::uint32_t index, int samples) {
   Lanes<Sampler::Draw> draws;
   if (samples == 1) {
-    for (std::size_t k = 0; k < seekers.count; ++k) draws[k] = {seekers.sampler[seekers.lane[k]], 0};
+    for (std::size_t k = 0; k < points.count; ++k) draws[k] = {points.sampler[points.lane[k]], 0};
   } else { // those of all samples are one sequence
     branched_.clear();
     branched_.reserve(kLaneCount); // the draws point into it
-    for (std::size_t k = 0; k < seekers.count; ++k) {
-      const Sampler& own = *seekers.sampler[seekers.lane[k]];
+    for (std::size_t k = 0; k < points.count; ++k) {
+      const Sampler& own = *points.sampler[points.lane[k]];
       draws[k] = {&branched_.emplace_back(own.branch(index, static_cast<std::uint32_t>(samples))), 0};
     }
   }
-  Sampler::get_2d({draws.data(), seekers.count}, Dimension::light_position, u_);
+  Sampler::get_2d({draws.data(), points.count}, Dimension::light_position, u_);
 }
 
-/// A light for each seeker that one may reach.
-void DirectLight::choose(const RenderScene& scene, const LightSelection& selection,
-                         const VertexLanes& vertices, const LightSeekers& seekers) {
-  queried_ = 0;
-  for (std::size_t k = 0; k < seekers.count; ++k) {
-    // One number chooses the light and, stretched again, the place on it: so the samples of each light are
-    // spread well, too. Between lamps of alike size that halves the noise of numbers of their own.
-    const std::uint32_t i = seekers.lane[k];
-    const LightReference& reference = vertices.reference[i];
-    auto choice = selection.choose(reference, u_[k].x);
+/// A light for each point that one may reach.
+void DirectLight::select_lights(const RenderScene& scene, const LightSelection& selection,
+                                const VertexLanes& vertices, const ShadingPoints& points) {
+  query_count_ = 0;
+  for (std::size_t k = 0; k < points.count; ++k) {
+    // One number selects the light and, stretched again, the place on it: so the samples of each light are
+    // well distributed, too. Between lamps of similar size this has half the noise of separate numbers.
+    const std::uint32_t i = points.lane[k];
+    const LightSamplingContext& context = vertices.light_context[i];
+    auto choice = selection.choose(context, u_[k].x);
     if (!choice) continue;
     pmf_[i] = choice->pmf;
-    queries_[queried_++] = {&scene.lights()[choice->light], &reference, vec2(choice->u, u_[k].y), i};
+    queries_[query_count_++] = {&scene.lights()[choice->light], &context, vec2(choice->u, u_[k].y), i};
   }
 }
 
-/// In all lanes, also where nothing is asked: what comes of those is not looked at.
-[[gnu::noinline]] void DirectLight::set_aims(const VertexLanes& __restrict vertices,
-                                             const LightSampleLanes& __restrict lights,
-                                             AimedLanes& __restrict aims) {
+/// In all lanes, also where no light was sampled: the output of those is not read.
+[[gnu::noinline]] void DirectLight::set_directions(const VertexLanes& __restrict vertices,
+                                                   const LightSampleLanes& __restrict lights,
+                                                   LightDirectionLanes& __restrict out) {
   for (std::size_t i = 0; i < vertices.count; ++i) {
     vec3 position = vertices.position[i], outside = vertices.geometric_normal[i], point = lights.point[i];
     vec3 away = select(lights.infinite[i] != 0, lights.direction[i], glm::normalize(point - position));
     float cosine = glm::dot(away, outside);
-    aims.direction.set(i, away);
-    aims.wi_local.set(i, Basis::from_normal(vertices.normal[i]).to_local(away));
-    aims.cosine[i] = vertices.side[i] > 0 ? cosine : -cosine;
-    aims.origin.set(i, offset_ray_origin(position, vertices.position_error[i], outside, away));
-    aims.target.set(i, offset_ray_origin(point, lights.point_error[i], lights.point_normal[i], -away));
+    out.direction.set(i, away);
+    out.wi_local.set(i, Basis::from_normal(vertices.normal[i]).to_local(away));
+    out.cosine[i] = vertices.side[i] > 0 ? cosine : -cosine;
+    out.origin.set(i, offset_ray_origin(position, vertices.position_error[i], outside, away));
+    out.target.set(i, offset_ray_origin(point, lights.point_error[i], lights.point_normal[i], -away));
   }
 }
 
-/// The shadow rays of the samples that bring something. All are made before the first is traced: one that has
-/// just been written by parts stalls the processor when it is loaded whole.
-void DirectLight::weigh(const VertexLanes& vertices, const LightSeekers& seekers,
-                        const PathSettings& settings) {
+/// Makes the shadow rays of the samples that contribute, with their MIS weights. All are made before the
+/// first is traced: one that has just been written by parts stalls the processor when it is loaded whole.
+void DirectLight::weight_samples(const VertexLanes& vertices, const ShadingPoints& points,
+                                 const PathSettings& settings) {
   shadow_count_ = 0;
   const auto n = static_cast<float>(settings.light_samples);
-  for (const LightQuery& query : std::span(queries_.data(), queried_)) {
+  for (const LightQuery& query : std::span(queries_.data(), query_count_)) {
     const std::uint32_t i = query.lane;
-    if (!(lights_.pdf[i] > 0) || !query.reference->accepts(aims_.cosine[i])) continue;
-    BsdfEval e = vertices.eval_pdf(i, aims_.wi_local[i], settings.direction_sampling);
-    vec3 contribution = e.f_cos * lights_.radiance[i];
+    if (!(lights_.pdf[i] > 0) || !query.context->accepts(directions_.cosine[i])) continue;
+    BsdfEval e = vertices.eval_pdf(i, directions_.wi_local[i], settings.direction_sampling);
+    Spectrum contribution = e.f_cos * lights_.radiance[i];
     if (is_black(contribution)) continue;
     float pdf = pmf_[i] * lights_.pdf[i];
     float weight = 1;
     if (!lights_.delta[i] && settings.light_sampling == LightSampling::mis)
-      weight = mis_weight(settings.mis_heuristic, n * pdf, static_cast<float>(seekers.scattered[i]) * e.pdf);
+      weight =
+          mis_weight(settings.mis_heuristic, n * pdf, static_cast<float>(points.bsdf_samples[i]) * e.pdf);
     ShadowRay& shadow = shadows_[shadow_count_++];
     shadow.lane = i;
     shadow.light = contribution * (weight / (pdf * n));
@@ -75,31 +76,33 @@ void DirectLight::weigh(const VertexLanes& vertices, const LightSeekers& seekers
 
 void DirectLight::set_ray(ShadowRay& shadow) const {
   const std::size_t i = shadow.lane;
-  shadow.infinite = lights_.infinite[i] != 0;
-  shadow.target = aims_.target[i];
-  shadow.ray.origin = aims_.origin[i];
-  shadow.ray.direction = shadow.infinite ? aims_.direction[i] : shadow.target - shadow.ray.origin;
+  const bool infinite = lights_.infinite[i] != 0;
+  shadow.target = {directions_.target[i], infinite};
+  shadow.ray.origin = directions_.origin[i];
+  shadow.ray.direction = infinite ? directions_.direction[i] : shadow.target.point - shadow.ray.origin;
   // Both ends are off their surfaces by their error bounds, so what is left must be free but for what the
   // distance adds to the rounding of t.
-  shadow.ray.t_max = shadow.infinite ? kInfinity : 1 - gamma_bound(16);
+  shadow.ray.t_max = infinite ? kInfinity : 1 - gamma_bound(16);
 }
 
-/// Gives seekers the light that reaches them.
-void DirectLight::look(const RenderScene& scene, LightSeekers& seekers, RayCounts& counts, StopPoll& stop) {
+/// Gives the points the light that reaches them.
+void DirectLight::trace_shadow_rays(const RenderScene& scene, ShadingPoints& points, RayCounts& counts,
+                                    StopPoll& stop) {
   const std::span<const ShadowRay> shadows(shadows_.data(), shadow_count_);
-  const bool anything_passes = scene.has_transparency() || scene.has_absorption();
-  if (!seekers.neighbours && !anything_passes) {
+  const bool anything_passes = scene.has_transparency() || scene.has_media();
+  if (!points.coherent && !anything_passes) {
     counts.shadow += shadows.size();
     for (const ShadowRay& shadow : shadows)
-      if (!scene.geometry().accel().occluded(shadow.ray)) seekers.light[shadow.lane] += shadow.light;
+      if (!scene.geometry().accel().occluded(shadow.ray)) points.light[shadow.lane] += shadow.light;
     return;
   }
   if (anything_passes) {
     for (const ShadowRay& shadow : shadows) {
       if (stop.asked()) return;
-      const Interiors* interiors = scene.has_absorption() ? seekers.interiors[shadow.lane] : nullptr;
-      const vec3 through = visibility(scene, shadow.ray, shadow.target, shadow.infinite, counts, interiors);
-      if (!is_black(through)) seekers.light[shadow.lane] += shadow.light * through;
+      const MediumStack* media = scene.has_media() ? points.media[shadow.lane] : nullptr;
+      const Spectrum through =
+          transmittance(scene, shadow.ray, shadow.target, *points.sampler[shadow.lane], counts, media);
+      if (!is_black(through)) points.light[shadow.lane] += shadow.light * through;
     }
     return;
   }
@@ -109,37 +112,37 @@ void DirectLight::look(const RenderScene& scene, LightSeekers& seekers, RayCount
   counts.shadow += shadows.size();
   scene.geometry().accel().occluded({rays.data(), shadows.size()}, occluded);
   for (std::size_t k = 0; k < shadows.size(); ++k)
-    if (!occluded[k]) seekers.light[shadows[k].lane] += shadows[k].light;
+    if (!occluded[k]) points.light[shadows[k].lane] += shadows[k].light;
 }
 
-void DirectLight::aim(const RenderScene& scene, const VertexLanes& vertices, LightSeekers& seekers,
-                      const PathSettings& settings, RayCounts& counts, StopPoll& stop) {
-  for (std::size_t k = 0; k < seekers.count; ++k) seekers.light[seekers.lane[k]] = vec3(0);
+void DirectLight::estimate(const RenderScene& scene, const VertexLanes& vertices, ShadingPoints& points,
+                           const PathSettings& settings, RayCounts& counts, StopPoll& stop) {
+  for (std::size_t k = 0; k < points.count; ++k) points.light[points.lane[k]] = Spectrum(0);
   const bool all = settings.light_sampling != LightSampling::bsdf;
   const LightSelection& selection = all ? scene.all_lights() : scene.delta_lights();
   if (selection.empty()) return;
   for (std::uint32_t index = 0; index < static_cast<std::uint32_t>(settings.light_samples); ++index) {
-    draw(seekers, index, settings.light_samples);
-    choose(scene, selection, vertices, seekers);
-    sample_lights({queries_.data(), queried_}, lights_);
-    set_aims(vertices, lights_, aims_);
-    weigh(vertices, seekers, settings);
-    look(scene, seekers, counts, stop);
+    draw_numbers(points, index, settings.light_samples);
+    select_lights(scene, selection, vertices, points);
+    sample_lights({queries_.data(), query_count_}, lights_);
+    set_directions(vertices, lights_, directions_);
+    weight_samples(vertices, points, settings);
+    trace_shadow_rays(scene, points, counts, stop);
     if (stop.asked()) return;
   }
 }
 
-vec3 DirectLightOfOne::aim(const RenderScene& scene, const Vertex& vertex, const Bsdf& bsdf,
-                           const Sampler& sampler, const PathSettings& settings, RayCounts& counts,
-                           StopPoll& stop, const Interiors* interiors) {
+Spectrum ScalarDirectLight::estimate(const RenderScene& scene, const Vertex& vertex, const Bsdf& bsdf,
+                                     const Sampler& sampler, const PathSettings& settings, RayCounts& counts,
+                                     StopPoll& stop, const MediumStack* media) {
   vertices_.set_one(vertex, bsdf);
-  seekers_.count = 1;
-  seekers_.lane[0] = 0;
-  seekers_.sampler[0] = &sampler;
-  seekers_.scattered[0] = 0;
-  seekers_.interiors[0] = interiors;
-  direct_light_.aim(scene, vertices_, seekers_, settings, counts, stop);
-  return seekers_.light[0];
+  points_.count = 1;
+  points_.lane[0] = 0;
+  points_.sampler[0] = &sampler;
+  points_.bsdf_samples[0] = 0;
+  points_.media[0] = media;
+  direct_light_.estimate(scene, vertices_, points_, settings, counts, stop);
+  return points_.light[0];
 }
 
 } // namespace candela

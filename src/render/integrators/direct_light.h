@@ -1,5 +1,5 @@
 #pragma once
-// Next-event estimation: light that surface points get straight from a light that was aimed at.
+// Next-event estimation: direct light at surface points, from lights that are sampled.
 
 #include "bsdf/direction_sampling.h"
 #include "core/stop_condition.h"
@@ -8,85 +8,84 @@
 
 namespace candela {
 
-/// Points that look for light: those of the lanes of VertexLanes that are named.
-struct LightSeekers {
+/// The points that lights are sampled for: some lanes of VertexLanes.
+struct ShadingPoints {
   std::size_t count = 0;
-  bool neighbours = false; ///< what they ask is asked together: faster where they lie side by side
-  std::array<std::uint32_t, kLaneCount> lane; ///< the count lanes that seek
+  bool coherent = false; ///< their shadow rays are traced together: faster where they lie side by side
+  std::array<std::uint32_t, kLaneCount> lane; ///< of the first `count`
   // By lane:
-  Lanes<const Sampler*> sampler; ///< stands at the vertex's bounce
-  Lanes<int> scattered;          ///< directions that the BSDF's strategy will try there
-  Lanes<const Interiors*>
-      interiors;     ///< bodies that the point lies in, on the side of wo; in scenes with absorption
-  Lanes<vec3> light; ///< what comes of it: the estimate of f |cos| x radiance
+  Lanes<const Sampler*> sampler;   ///< stands at the vertex's bounce
+  Lanes<int> bsdf_samples;         ///< directions that BSDF sampling will take there, for MIS
+  Lanes<const MediumStack*> media; ///< of the point, on the side of wo; in scenes with media
+  Lanes<Spectrum> light;           ///< output: the estimate of f |cos| x radiance
 };
 
-/// Density, 1/sr, with which a sample of direct light aims along the unit `direction`, for MIS: `pdf` is that
-/// of the light there (light_pdf), which is one of all.
-inline float aimed_pdf(const RenderScene& scene, const LightReference& reference, std::uint32_t light,
-                       float pdf, vec3 direction) {
-  return reference.accepts(direction) ? scene.all_lights().pmf(reference, light) * pdf : 0;
+/// Density, 1/sr, with which light sampling gives the unit `direction`, for MIS: `pdf` is that of the light
+/// there (light_pdf), which is one of all.
+inline float light_sampling_pdf(const RenderScene& scene, const LightSamplingContext& context,
+                                std::uint32_t light, float pdf, vec3 direction) {
+  return context.accepts(direction) ? scene.all_lights().pmf(context, light) * pdf : 0;
 }
 
 /// For one thread; keep it, for it keeps its memory.
 class DirectLight {
 public:
   /// The estimate from all lights, by `settings.light_samples` shadow rays a vertex; each weighted against
-  /// the `scattered` directions where the settings say mis. The lights that no direction meets by chance are
-  /// aimed at under every strategy, with weight 1. What one seeker gets does not depend on the others. Comes
-  /// back early, with less light, where it is asked to stop.
-  void aim(const RenderScene& scene, const VertexLanes& vertices, LightSeekers& seekers,
-           const PathSettings& settings, RayCounts& counts, StopPoll& stop);
+  /// the `bsdf_samples` where the settings say mis. Delta lights, which BSDF sampling cannot find, are
+  /// sampled under every strategy, with weight 1. The estimate of a point is independent of the others.
+  /// Returns early, with less light, where it is asked to stop.
+  void estimate(const RenderScene& scene, const VertexLanes& vertices, ShadingPoints& points,
+                const PathSettings& settings, RayCounts& counts, StopPoll& stop);
 
 private:
-  /// What is aimed along, by the lane of the vertex.
-  struct AimedLanes {
+  /// Directions to the sampled lights, by the lane of the vertex.
+  struct LightDirectionLanes {
     Vec3Lanes direction; ///< unit, to the light
     Vec3Lanes wi_local;  ///< the same about the normal
-    Lanes<float> cosine; ///< with the reference's normal
+    Lanes<float> cosine; ///< with the light sampling context's normal
     // The shadow ray:
     Vec3Lanes origin;
     Vec3Lanes target; ///< its end, off the light's surface; unused where the light is infinite
   };
-  /// A light sample that waits to be looked at, and what it brings if nothing is between.
+  /// A light sample that waits for its shadow ray, and what it contributes if nothing is between.
   struct ShadowRay {
     Ray ray;
-    vec3 target;
-    bool infinite;
+    ShadowTarget target;
     std::uint32_t lane;
-    vec3 light;
+    Spectrum light;
   };
 
-  void draw(const LightSeekers& seekers, std::uint32_t index, int samples);
-  void choose(const RenderScene& scene, const LightSelection& selection, const VertexLanes& vertices,
-              const LightSeekers& seekers);
-  void weigh(const VertexLanes& vertices, const LightSeekers& seekers, const PathSettings& settings);
+  // The stages of one light sample for each point, in their order.
+  void draw_numbers(const ShadingPoints& points, std::uint32_t index, int samples);
+  void select_lights(const RenderScene& scene, const LightSelection& selection, const VertexLanes& vertices,
+                     const ShadingPoints& points);
+  static void set_directions(const VertexLanes& vertices, const LightSampleLanes& lights,
+                             LightDirectionLanes& directions);
+  void weight_samples(const VertexLanes& vertices, const ShadingPoints& points, const PathSettings& settings);
   void set_ray(ShadowRay& shadow) const;
-  void look(const RenderScene& scene, LightSeekers& seekers, RayCounts& counts, StopPoll& stop);
-  static void set_aims(const VertexLanes& vertices, const LightSampleLanes& lights, AimedLanes& aims);
+  void trace_shadow_rays(const RenderScene& scene, ShadingPoints& points, RayCounts& counts, StopPoll& stop);
 
-  // Of one light sample for each seeker:
   std::vector<Sampler> branched_;
-  Lanes<vec2> u_; ///< by seeker; all else by lane or in the order of asking
+  Lanes<vec2> u_; ///< by point; all else by lane or by query
   Lanes<LightQuery> queries_;
-  std::size_t queried_ = 0;
-  Lanes<float> pmf_;
-  LightSampleLanes lights_{}; ///< set_aims() looks at all
-  AimedLanes aims_;
+  std::size_t query_count_ = 0;
+  Lanes<float> pmf_;          ///< of the light's having been selected
+  LightSampleLanes lights_{}; ///< set_directions() reads all
+  LightDirectionLanes directions_;
   Lanes<ShadowRay> shadows_;
   std::size_t shadow_count_ = 0;
 };
 
-/// The same for one vertex at a time, from which no direction is tried by chance.
-class DirectLightOfOne {
+/// The same for one vertex at a time, without BSDF sampling beside it.
+class ScalarDirectLight {
 public:
-  vec3 aim(const RenderScene& scene, const Vertex& vertex, const Bsdf& bsdf, const Sampler& sampler,
-           const PathSettings& settings, RayCounts& counts, StopPoll& stop,
-           const Interiors* interiors = nullptr);
+  Spectrum estimate(const RenderScene& scene, const Vertex& vertex, const Bsdf& bsdf, const Sampler& sampler,
+                    const PathSettings& settings, RayCounts& counts, StopPoll& stop,
+                    const MediumStack* media = nullptr);
 
 private:
   VertexLanes vertices_;
-  LightSeekers seekers_;
+  ShadingPoints points_;
   DirectLight direct_light_;
 };
 

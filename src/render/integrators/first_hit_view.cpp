@@ -13,24 +13,24 @@ vec3 index_color(std::uint32_t index) {
   return lightness * (1.0f + 0.7f * glm::cos(hue));
 }
 
-vec3 towards_viewer(vec3 normal, const Surface& surface, const Ray& ray) {
+vec3 towards_viewer(vec3 normal, const SurfaceInteraction& surface, const Ray& ray) {
   return 0.5f * (glm::dot(surface.geometric_normal, ray.direction) > 0 ? -normal : normal) + 0.5f;
 }
 
 } // namespace
 
-vec3 bvh_cost_value(const RenderScene& scene, const Ray& ray, RayCounts& counts) {
+Spectrum bvh_cost_value(const RenderScene& scene, const Ray& ray, RayCounts& counts) {
   ++counts.closest;
   const TraversalCost cost = scene.geometry().accel().cost(ray);
   return vec3(static_cast<float>(cost.nodes + cost.packs));
 }
 
-vec3 first_hit_value(const RenderScene& scene, Ray ray, bool met, Hit hit, vec3 forward, View view,
-                     Sampler& sampler, RayCounts& counts) {
+Spectrum first_hit_value(const RenderScene& scene, Ray ray, bool met, Hit hit, vec3 forward, View view,
+                         Sampler& sampler, RayCounts& counts) {
   const vec3 origin = ray.origin;
   sampler.set_bounce(1);
-  if (!look_through(scene, ray, sampler, met, hit, counts)) return vec3(0);
-  Surface surface = scene.geometry().surface(ray, hit);
+  if (!intersect_through_opacity(scene, ray, sampler, met, hit, counts)) return vec3(0);
+  SurfaceInteraction surface = scene.geometry().surface(ray, hit);
   auto uv = [&] { return scene.geometry().uv(ray, hit); };
   switch (view) {
   case View::albedo: {

@@ -10,10 +10,10 @@ namespace candela {
 /// - depth: along `forward`, scene units; - uv: fractional parts, red and green;
 /// - material: a colour that the material's index chooses.
 /// 0 where the ray leaves the scene.
-vec3 first_hit_value(const RenderScene& scene, Ray ray, bool met, Hit hit, vec3 forward, View view,
-                     Sampler& sampler, RayCounts& counts);
+Spectrum first_hit_value(const RenderScene& scene, Ray ray, bool met, Hit hit, vec3 forward, View view,
+                         Sampler& sampler, RayCounts& counts);
 
 /// For View::bvh_cost: the nodes and packs of primitives that the ray tests.
-vec3 bvh_cost_value(const RenderScene& scene, const Ray& ray, RayCounts& counts);
+Spectrum bvh_cost_value(const RenderScene& scene, const Ray& ray, RayCounts& counts);
 
 } // namespace candela

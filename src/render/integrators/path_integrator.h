@@ -1,9 +1,10 @@
 #pragma once
-// The path tracer: radiance along camera rays by random walks from the eye.
+// The path tracer: radiance along camera rays by random walks from the camera.
 
 #include "core/stop_condition.h"
+#include "render/integrators/continuation.h"
 #include "render/integrators/direct_light.h"
-#include "render/integrators/onward.h"
+#include "render/integrators/path_length.h"
 #include "render/integrators/path_sample.h"
 #include "render/integrators/transport.h"
 
@@ -12,27 +13,24 @@
 
 namespace candela {
 
-/// Whether the settings show light of paths of `depth` segments.
-bool shows_depth(const PathSettings& settings, int depth);
-/// Where Russian roulette is off and path.max_depth sets no limit, paths end after so many segments.
-inline constexpr int kMostSegmentsWithoutRoulette = 1024;
-/// The longest path that can matter under the settings, in segments.
-int longest_path(const PathSettings& settings);
-
 /// Where a path begins, at a pixel's sample.
 struct PathStart {
   Ray ray;
   Sampler sampler;
-  Interiors interiors{}; ///< of the ray's origin, in scenes with absorption
+  MediumStack media{}; ///< of the ray's origin, in scenes with media
 };
 
-/// Traces paths many at a time, one segment of all of them after the other: all meet their surfaces, all aim
-/// at lights, all choose their next directions. A stage is a loop over paths that know nothing of each other,
-/// so the vector unit makes random numbers and light samples of several at once, and the processor works on
-/// the next one while it waits for this one. On the Cornell box that was 1.4 times as fast as one path after
-/// another; with surfaces, light samples, roulette and rays made side by side, too, in lanes (core/lanes.h),
-/// it is 1.25 times as fast as that. What a path brings back does not depend on the company that it travels
-/// in.
+/// Traces paths many at a time, one segment of all of them after the other (Laine et al. 2013, "Megakernels
+/// Considered Harmful"). For each segment, the stages are:
+/// - intersect: the closest hits;
+/// - sample_media: through transparent surfaces and media to a surface, or out of the scene;
+/// - add_environment, for paths that escaped, and add_emission, for those that hit a surface;
+/// - at the surface vertices: sample_lights, then sample_bsdfs, Russian roulette and continuation rays.
+/// A stage is a loop over paths that know nothing of each other, so the vector unit makes random numbers and
+/// light samples of several at once, and the processor works on the next one while it waits for this one. On
+/// the Cornell box that was 1.4 times as fast as one path after another; with surfaces, light samples,
+/// roulette and rays made side by side, too, in lanes (core/lanes.h), it is 1.25 times as fast as that. What
+/// a path brings back is independent of the batch that it is traced in.
 ///
 /// A pixel's first sample is never split, so that the first picture does not wait for it.
 ///
@@ -48,47 +46,58 @@ public:
              StopPoll& stop);
 
 private:
-  /// A walk on its way: what the next vertex needs to know of those before.
+  /// What the next vertex needs to know of those before.
   struct Path {
     explicit Path(const PathStart& start) : ray(start.ray), sampler(start.sampler) {}
     explicit Path(const Sampler& s) : sampler(s) {}
 
     Ray ray;
     Sampler sampler;
-    vec3 throughput{1}; ///< product of f |cos| / pdf and of 1 / survival so far
+    Spectrum throughput{1}; ///< product of f |cos| / pdf, transmittances and 1 / survival so far
     /// What Russian roulette multiplies the throughput by: it leaves out the 1/eta^2 of refractions, which
     /// the way out of the glass gives back, and the share of a split.
-    float roulette_scale = 1;
+    float eta_scale = 1;
     std::uint32_t result = 0; ///< the sample that it adds to
     bool split = false;       ///< has, or may not any more
     // The last vertex: how the path left it.
-    bool arrived_by_delta = true; ///< the camera cannot be aimed from
-    float arrival_density = 0;    ///< 1/sr, times the number of directions tried there
-    LightReference reference;
+    bool specular_bounce = true; ///< by a delta lobe; light sampling does not find camera rays either
+    float bsdf_pdf = 0;          ///< 1/sr, times the number of directions sampled there
+    LightSamplingContext light_context;
   };
 
   /// A path at a surface that scatters, in vertices_.
-  struct Stop {
+  struct ScatteringVertex {
     Path* path;
     std::uint32_t lane;
-    int branches; ///< directions to try
+    int branches; ///< directions to sample
+  };
+  /// A direction that is sampled from a vertex: a continuation of its path.
+  struct SampledDirection {
+    const ScatteringVertex* vertex;
+    const Sampler* sampler; ///< of the branch
+    float bsdf_pdf;         ///< as of Path
+    bool delta;
   };
 
+  // The stages, in their order.
   void intersect(int depth, StopPoll& stop);
-  void meet_emitters(int depth);
-  void stop_at(std::size_t begin, std::size_t count, int depth, StopPoll& stop);
-  void prepare_aiming(std::size_t lane);
-  bool leave(std::uint32_t branch, int depth);
-  bool meet_in_bodies(std::size_t path, bool known, bool met, Hit& hit);
-  Interiors& interiors_of(const Path& path) {
-    return interiors_[static_cast<std::size_t>(&path - paths_.data())];
-  }
+  void sample_media(int depth, StopPoll& stop);
+  void add_environment(int depth);
+  void add_emission(int depth);
+  void scatter(std::size_t begin, std::size_t count, int depth, StopPoll& stop);
+  void make_vertices(std::size_t begin, std::size_t count, int depth);
+  void sample_lights(std::size_t begin, int depth, StopPoll& stop);
+  bool sample_bsdfs(std::uint32_t branch, int depth);
+  void fold_directions();
+  void continue_paths();
 
-  void meet_background(int depth);
-  void add_background(const Path& path, std::uint32_t light, vec3 radiance, float pdf, int depth);
-  void add_emission(const Path& path, const Surface& surface, vec3 emission, int depth);
-  bool needs_aimed_pdf(const Path& path) const;
-  float weight_by_chance(const Path& path, float aimed) const;
+  bool pass_media(std::size_t path, bool met, Hit& hit);
+  void set_light_context(std::size_t lane, const Bsdf& bsdf, BsdfFlags flags);
+  MediumStack& media_of(const Path& path) { return media_[static_cast<std::size_t>(&path - paths_.data())]; }
+  void add_escaped(const Path& path, std::uint32_t light, Spectrum radiance, float pdf, int depth);
+  void add_emitted(const Path& path, const SurfaceInteraction& surface, Spectrum emission, int depth);
+  bool needs_light_pdf(const Path& path) const;
+  float bsdf_sampling_weight(const Path& path, float light_pdf) const;
 
   const RenderScene& scene_;
   PathSettings settings_;
@@ -97,23 +106,25 @@ private:
   // Of the batch in flight.
   std::span<PathSample> results_;
   RayCounts counts_;
-  std::vector<Path> paths_, next_;
-  /// Of their rays, parallel to them; in scenes with absorption alone.
-  std::vector<Interiors> interiors_, next_interiors_;
+  std::vector<Path> paths_, next_paths_;
+  /// Of their rays, parallel to them; in scenes with media alone.
+  std::vector<MediumStack> media_, next_media_;
   std::vector<const Ray*> rays_; ///< of the paths, where they are traced together
-  std::vector<Path*> missed_;
-  std::vector<EnvironmentMap::Place> places_; ///< parallel to missed_
-  std::vector<Path*> arrived_;
-  std::vector<Hit> hits_; ///< parallel to arrived_
+  std::vector<Hit> hits_;        ///< of the paths; from sample_media on, parallel to arrived_
+  std::vector<Path*> escaped_;
+  std::vector<EnvironmentMap::Place> places_; ///< parallel to escaped_
+  std::vector<Path*> arrived_;                ///< at a surface
 
   // Of the lanes in flight.
   VertexLanes vertices_;
-  std::vector<Stop> stops_;
-  bool several_lobes_ = false; ///< a BSDF at the stops asks for BsdfU::lobe
-  LightSeekers seekers_;
+  std::vector<ScatteringVertex> scattering_;
+  BsdfFlags scattering_flags_ = BsdfFlags::none; ///< of all of them
+  ShadingPoints shading_points_;
   DirectLight direct_light_;
-  OnwardLanes onward_{};          ///< all of it is computed with, used or not
-  std::vector<Sampler> branched_; ///< of paths that split
+  Lanes<SampledDirection> directions_; ///< one of each vertex, at most
+  std::size_t direction_count_ = 0;
+  ContinuationLanes continuation_{}; ///< all of it is computed with, used or not
+  std::vector<Sampler> branched_;    ///< of paths that split
 };
 
 } // namespace candela

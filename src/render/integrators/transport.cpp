@@ -8,12 +8,20 @@ namespace {
 /// ever.
 constexpr std::uint32_t kMaxCrossings = 1024;
 
+/// Of the ray's first `distance` (scene units).
+Spectrum transmittance(const RenderScene& scene, const MediumStack& media, const Ray& ray, float distance,
+                       const Sampler& sampler) {
+  const MediumId medium = media.current();
+  return medium ? transmittance(ray, distance, scene.medium(medium), sampler) : Spectrum(1);
+}
+
 } // namespace
 
-bool detail::look_through_bodies(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met,
-                                 Hit& hit, RayCounts& counts, Passage* passage) {
+bool detail::intersect_through_media(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met,
+                                     Hit& hit, RayCounts& counts, MediaPassage* passage) {
   auto advance = [&](float distance) {
-    if (passage != nullptr) passage->transmittance *= transmittance(scene, passage->interiors, distance);
+    if (passage != nullptr)
+      passage->transmittance *= transmittance(scene, passage->media, ray, distance, sampler);
   };
   if (!scene.has_transparency()) {
     advance(met ? hit.t : kInfinity);
@@ -24,9 +32,9 @@ bool detail::look_through_bodies(const RenderScene& scene, Ray& ray, const Sampl
     advance(hit.t);
     if (material.opacity >= 1 || sampler.get_1d(Dimension::opacity, crossing) < material.opacity) return true;
     if (crossing + 1 == kMaxCrossings) return false;
-    Surface s = scene.geometry().surface(ray, hit);
+    SurfaceInteraction s = scene.geometry().surface(ray, hit);
     if (passage != nullptr)
-      passage->interiors.cross(material.interior, glm::dot(s.geometric_normal, ray.direction) < 0);
+      passage->media.cross(material.media, glm::dot(s.geometric_normal, ray.direction) < 0);
     ray.origin = offset_ray_origin(s.position, s.position_error, s.geometric_normal, ray.direction);
     ++counts.closest;
     met = scene.geometry().accel().intersect(ray, hit);
@@ -35,38 +43,39 @@ bool detail::look_through_bodies(const RenderScene& scene, Ray& ray, const Sampl
   return false;
 }
 
-vec3 visibility(const RenderScene& scene, const Ray& towards, vec3 target, bool infinite, RayCounts& counts,
-                const Interiors* interiors) {
+Spectrum transmittance(const RenderScene& scene, const Ray& towards, const ShadowTarget& target,
+                       const Sampler& sampler, RayCounts& counts, const MediumStack* media) {
   const Accel& accel = scene.geometry().accel();
   // `t` is in lengths of the ray's direction, as Hit has it.
-  auto passes = [&](const Interiors& where, const Ray& ray, float t) {
-    return where.empty() ? vec3(1) : transmittance(scene, where, t * glm::length(ray.direction));
+  auto passes = [&](const MediumStack& where, const Ray& ray, float t) {
+    return where.empty() ? Spectrum(1)
+                         : transmittance(scene, where, ray, t * glm::length(ray.direction), sampler);
   };
-  const float whole_way = infinite ? kInfinity : 1;
+  const float whole_way = target.infinite ? kInfinity : 1;
   if (!scene.has_transparency()) {
     ++counts.shadow;
-    if (accel.occluded(towards)) return vec3(0);
-    return interiors == nullptr ? vec3(1) : passes(*interiors, towards, whole_way);
+    if (accel.occluded(towards)) return Spectrum(0);
+    return media == nullptr ? Spectrum(1) : passes(*media, towards, whole_way);
   }
   Ray ray = towards;
-  Interiors where = interiors != nullptr ? *interiors : Interiors();
-  vec3 through(1);
+  MediumStack where = media != nullptr ? *media : MediumStack();
+  Spectrum through(1);
   for (std::uint32_t i = 0; i < kMaxCrossings; ++i) {
     ++counts.shadow;
     auto hit = accel.intersect(ray);
     if (!hit) return through * passes(where, ray, whole_way);
     const SurfaceMaterial& material = scene.material(scene.geometry().material_of(*hit));
     through *= 1 - material.opacity;
-    if (is_black(through)) return vec3(0);
-    Surface s = scene.geometry().surface(ray, *hit);
-    if (interiors != nullptr) {
+    if (is_black(through)) return Spectrum(0);
+    SurfaceInteraction s = scene.geometry().surface(ray, *hit);
+    if (media != nullptr) {
       through *= passes(where, ray, hit->t);
-      where.cross(material.interior, glm::dot(s.geometric_normal, ray.direction) < 0);
+      where.cross(material.media, glm::dot(s.geometric_normal, ray.direction) < 0);
     }
     ray.origin = offset_ray_origin(s.position, s.position_error, s.geometric_normal, ray.direction);
-    if (!infinite) ray.direction = target - ray.origin;
+    if (!target.infinite) ray.direction = target.point - ray.origin;
   }
-  return vec3(0);
+  return Spectrum(0);
 }
 
 } // namespace candela

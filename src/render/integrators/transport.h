@@ -1,53 +1,57 @@
 #pragma once
 // Rays between surfaces: what every integrator needs, whatever it estimates.
 
-#include "render/integrators/interior.h"
+#include "render/integrators/media_at.h"
 #include "render/integrators/ray_counts.h"
 #include "sampling/sampler.h"
 
 namespace candela {
 
 /// Ray from a surface point towards w (unit), clear of the surface's own rounding.
-inline Ray spawn_ray(const Surface& s, vec3 w) {
+inline Ray spawn_ray(const SurfaceInteraction& s, vec3 w) {
   return {offset_ray_origin(s.position, s.position_error, s.geometric_normal, w), 0, w, kInfinity};
 }
 
-/// A ray's way through bodies that absorb.
-struct Passage {
-  Interiors interiors;   ///< where the ray is
-  vec3 transmittance{1}; ///< what is left of the light on the way so far
+/// A ray's way through media.
+struct MediaPassage {
+  MediumStack media;         ///< where the ray is
+  Spectrum transmittance{1}; ///< of the way so far
 };
 
 namespace detail {
 
-/// look_through() where anything is transparent or absorbs.
-bool look_through_bodies(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met, Hit& hit,
-                         RayCounts& counts, Passage* passage);
+/// intersect_through_opacity() where anything is transparent or there are media.
+bool intersect_through_media(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met, Hit& hit,
+                             RayCounts& counts, MediaPassage* passage);
 
 } // namespace detail
 
-/// What a ray of unit direction meets first, or (not `met`) that it meets nothing, is known: whether it meets
-/// a surface, looking through what is transparent with the chance of 1 - opacity; each crossing has a random
-/// number of its own. The ray then starts behind the last one that it passed. `passage`, which is null in
-/// scenes without absorption, is brought to the surface, or to infinity.
-inline bool look_through(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met, Hit& hit,
-                         RayCounts& counts, Passage* passage = nullptr) {
+/// Given the closest hit of a ray of unit direction (or not `met`): whether the ray ends at a surface. A
+/// surface lets it through with the probability 1 - opacity; each crossing has a random number of its own.
+/// The ray then starts behind the last surface that it passed. `passage`, which is null in scenes without
+/// media, is brought to the surface, or to infinity.
+inline bool intersect_through_opacity(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met,
+                                      Hit& hit, RayCounts& counts, MediaPassage* passage = nullptr) {
   if (!scene.has_transparency() && passage == nullptr) return met;
-  return detail::look_through_bodies(scene, ray, sampler, met, hit, counts, passage);
+  return detail::intersect_through_media(scene, ray, sampler, met, hit, counts, passage);
 }
-/// The same where it is not known.
+/// The same where the closest hit is not known yet.
 inline bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit,
-                            RayCounts& counts, Passage* passage = nullptr) {
+                            RayCounts& counts, MediaPassage* passage = nullptr) {
   ++counts.closest;
   const bool met = scene.geometry().accel().intersect(ray, hit);
-  return look_through(scene, ray, sampler, met, hit, counts, passage);
+  return intersect_through_opacity(scene, ray, sampler, met, hit, counts, passage);
 }
 
-/// Share of the light that comes through where the ray goes: 0 or 1, or the product of what the transparent
-/// surfaces and the bodies there let pass. The ray leads to t = 1 at `target`, or on for ever if `infinite`.
-/// `interiors` of its origin are null in scenes without absorption.
-vec3 visibility(const RenderScene& scene, const Ray& ray, vec3 target, bool infinite, RayCounts& counts,
-                const Interiors* interiors = nullptr);
+/// The end of a shadow ray.
+struct ShadowTarget {
+  vec3 point;    ///< at t = 1 of the ray, but for rounding; unused if `infinite`
+  bool infinite; ///< the ray goes on for ever
+};
+/// Share of the light that comes through where a shadow ray goes: 0 or 1, or the product of what the
+/// transparent surfaces and the media there let pass. `media` of its origin are null in scenes without any.
+Spectrum transmittance(const RenderScene& scene, const Ray& ray, const ShadowTarget& target,
+                       const Sampler& sampler, RayCounts& counts, const MediumStack* media = nullptr);
 
 /// Weight of the strategy with density `mine` (> 0) against the other's, numbers of samples included (Veach
 /// 1997, section 9.2).
@@ -77,31 +81,26 @@ inline vec3 mirrored_at_plane(vec3 w, vec3 normal) { return w - 2 * glm::dot(w, 
 /// whatever the normal. Lambertian reflection, of which little lies there, is left as other renderers have
 /// it.
 inline bool folds_directions(const Bsdf& bsdf, vec3 normal, vec3 geometric_normal) {
-  return std::abs(glm::dot(normal, geometric_normal)) < 1 - 1e-6f && !std::holds_alternative<Diffuse>(bsdf);
+  return std::abs(glm::dot(normal, geometric_normal)) < 1 - 1e-6f && !is_diffuse(bsdf_flags(bsdf));
 }
 
 /// A hit made ready for scattering.
 struct Vertex {
-  Surface surface;
+  SurfaceInteraction surface;
   const SurfaceMaterial* material;
   vec3 wo;     ///< unit, where the ray came from
   float side;  ///< cosine of wo with the geometric normal: > 0 outside
   Basis frame; ///< about the shading normal
   vec3 wo_local;
-  LightReference reference; ///< of this point, for aiming at lights
+  LightSamplingContext light_context;
 
   /// Made in place: copies of what has just been written by parts stall the processor.
   Vertex(const RenderScene& scene, const Ray& ray, const Hit& hit)
       : surface(scene.geometry().surface(ray, hit)), material(&scene.material(surface.material)),
         wo(-ray.direction), side(glm::dot(wo, surface.geometric_normal)),
         frame(Basis::from_normal(visible_normal(surface.shading_normal, wo, side))),
-        wo_local(frame.to_local(wo)), reference{
-                                          surface.position,
-                                          side > 0 ? surface.geometric_normal : -surface.geometric_normal,
-                                          false,
-                                          false,
-                                          {},
-                                          vec3(0)} {}
+        wo_local(frame.to_local(wo)), light_context{surface.position, side > 0 ? surface.geometric_normal
+                                                                               : -surface.geometric_normal} {}
 
   /// Whether anything scatters here: not where the surface is seen edge-on.
   bool scatters() const { return wo_local.z * side > 0; }

@@ -18,7 +18,7 @@ struct TriangleLanes {
   }
 };
 
-/// `normal` becomes the shading normal, whoever looks at it.
+/// `normal` becomes the shading normal, not bent to any viewer yet.
 [[gnu::noinline]] void set_points(TriangleLanes& __restrict t, VertexLanes& __restrict out) {
   for (std::size_t i = 0; i < out.count; ++i) {
     TrianglePoint p = triangle_point(t.p0[i], t.p1[i], t.p2[i], t.u[i], t.v[i]);
@@ -43,8 +43,7 @@ struct TriangleLanes {
 
 } // namespace
 
-void VertexLanes::meet(const RenderScene& scene, std::span<const Ray* const> rays,
-                       std::span<const Hit> hits) {
+void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits) {
   const Geometry& geometry = scene.geometry();
   const TriangleSet& world = geometry.world();
   TriangleLanes triangles;
@@ -72,7 +71,7 @@ void VertexLanes::meet(const RenderScene& scene, std::span<const Ray* const> ray
   }
   set_points(triangles, *this);
   for (std::uint32_t i : std::span(others.data(), other_count)) {
-    const Surface s = geometry.surface(*rays[i], hits[i]);
+    const SurfaceInteraction s = geometry.surface(*rays[i], hits[i]);
     position.set(i, s.position);
     position_error.set(i, s.position_error);
     geometric_normal.set(i, s.geometric_normal);
@@ -82,9 +81,10 @@ void VertexLanes::meet(const RenderScene& scene, std::span<const Ray* const> ray
   }
   set_frames(wo, *this);
   for (std::size_t i = 0; i < count; ++i) {
-    LightReference& r = reference[i];
-    r.position = position[i];
-    r.normal = side[i] > 0 ? geometric_normal[i] : -geometric_normal[i];
+    LightSamplingContext& context = light_context[i];
+    context.position = position[i];
+    context.domain = ScatteringDomain::hemisphere;
+    context.normal = side[i] > 0 ? geometric_normal[i] : -geometric_normal[i];
   }
 }
 
@@ -109,7 +109,7 @@ MirroredPair mirrored_pair(const VertexLanes& v, std::size_t i, vec3 wi_local) {
 BsdfEval VertexLanes::folded_eval_pdf(std::size_t i, vec3 wi_local, DirectionSampling how,
                                       const BsdfEval& own) const {
   const MirroredPair pair = mirrored_pair(*this, i, wi_local);
-  BsdfEval sum{vec3(0), 0};
+  BsdfEval sum{Spectrum(0), 0};
   auto add = [&](const BsdfEval& e) { sum = {sum.f_cos + e.f_cos, sum.pdf + e.pdf}; };
   if (pair.keeps) add(own);
   if (!pair.mirrored_keeps) add(direction_eval_pdf(bsdf(i), wo_local[i], pair.mirrored, how));
@@ -129,7 +129,7 @@ void VertexLanes::set_one(const Vertex& vertex, const Bsdf& bsdf) {
   normal.set(0, vertex.frame.n);
   wo_local.set(0, vertex.wo_local);
   side[0] = vertex.side;
-  reference[0] = vertex.reference;
+  light_context[0] = vertex.light_context;
   material[0] = vertex.material;
   textured[0] = bsdf;
 }

@@ -12,17 +12,17 @@ namespace candela {
 /// Up to kLaneCount of them.
 struct VertexLanes {
   std::size_t count = 0;
-  Vec3Lanes position, position_error; ///< as Surface has them
+  Vec3Lanes position, position_error; ///< as SurfaceInteraction has them
   Vec3Lanes geometric_normal;
   Vec3Lanes normal;   ///< visible_normal
   Vec3Lanes wo_local; ///< unit, where the ray came from, about the normal
   Lanes<float> side;  ///< cosine of wo with the geometric normal: > 0 outside
-  Lanes<LightReference> reference;
+  Lanes<LightSamplingContext> light_context;
   Lanes<const SurfaceMaterial*> material;
   Lanes<Bsdf> textured; ///< where the material has a texture
 
   /// Lane i is where rays[i] met hits[i].
-  void meet(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits);
+  void set(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits);
   /// Lane 0 is `vertex`, with this BSDF, and there is no other.
   void set_one(const Vertex& vertex, const Bsdf& bsdf);
 

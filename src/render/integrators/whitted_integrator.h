@@ -9,11 +9,11 @@ namespace candela {
 /// One sample of the light that reaches `start` straight from lights at the first surface that is not
 /// perfectly specular, both branches of glass followed (Whitted, "An Improved Illumination Model for Shaded
 /// Display", CACM 23(6), 1980). Diffuse surfaces do not light each other: with the path integrator's picture
-/// beside it, one sees what is missing. Lights are aimed at (several times where path.light_samples says so);
+/// beside it, one sees what is missing. Lights are sampled (several times where path.light_samples says so);
 /// depths mean the same as in the path integrator. `direct_light` is memory, of the thread. Less than it
 /// should be, and quick, where it is asked to stop.
 PathSample whitted_radiance(const RenderScene& scene, const PathStart& start, Sampler& sampler,
-                            const PathSettings& settings, DirectLightOfOne& direct_light, RayCounts& counts,
+                            const PathSettings& settings, ScalarDirectLight& direct_light, RayCounts& counts,
                             StopPoll& stop);
 
 } // namespace candela

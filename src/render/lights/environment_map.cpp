@@ -78,9 +78,9 @@ EnvironmentMap::EnvironmentMap(std::shared_ptr<const Panorama> panorama, Environ
     cut_faces(progress);
     pad_faces();
   }
-  all_ = make_density(0, progress);
-  bright_ = make_density(all_.total / (4 * kPi), progress);
-  if (!(bright_.total > kLeastBright * all_.total)) bright_ = {};
+  full_ = make_density(0, progress);
+  compensated_ = make_density(full_.total / (4 * kPi), progress);
+  if (!(compensated_.total > kLeastBright * full_.total)) compensated_ = {};
 }
 
 /// Takes the faces' texels out of a cross or a column of faces.
@@ -125,7 +125,7 @@ void EnvironmentMap::pad_faces() {
         if (x >= 0 && x < width_ && y >= 0 && y < height_) continue;
         vec2 st = st_of_square((vec2(x, y) + 0.5f) / size);
         FacePoint beyond = face_point(face_direction(face, st));
-        bordered.at(x + 1, face * (height_ + 2) + y + 1) = lookup(beyond.face, square_of_st(beyond.st));
+        bordered.at(x + 1, face * (height_ + 2) + y + 1) = bilinear(beyond.face, square_of_st(beyond.st));
       }
   padded_faces_ = std::move(bordered);
 }
@@ -156,7 +156,7 @@ EnvironmentMap::Footprint EnvironmentMap::footprint(int face, vec2 q) const {
   return {{at.above[at.left], at.above[at.right], at.below[at.left], at.below[at.right]}, at.f};
 }
 
-vec3 EnvironmentMap::lookup(int face, vec2 q) const {
+Spectrum EnvironmentMap::bilinear(int face, vec2 q) const {
   Footprint at = footprint(face, q);
   return mix_square(at.texels, at.f);
 }
@@ -212,9 +212,9 @@ float EnvironmentMap::per_steradian(ChartPoint at, vec3 d) const {
   return 1 / (24 * face_steradians(st_of_square(at.q)));
 }
 
-vec3 EnvironmentMap::radiance(vec3 d) const {
+Spectrum EnvironmentMap::radiance(vec3 d) const {
   ChartPoint at = chart_point(d);
-  return lookup(at.face, at.q);
+  return bilinear(at.face, at.q);
 }
 
 namespace {
@@ -238,8 +238,8 @@ EnvironmentMap::Place EnvironmentMap::locate(vec3 d) const {
   return {d, point.face, point.q};
 }
 
-EnvironmentMap::Seen EnvironmentMap::look(const Place& at, EnvironmentAim aim) const {
-  const Density& by = density(aim);
+EnvironmentMap::RadianceSample EnvironmentMap::lookup(const Place& at, EnvironmentDensity of) const {
+  const Density& by = density(of);
   Footprint seen = footprint(at.face, at.q);
   vec2 p = at.q * vec2(width_, height_);
   const int x = std::min(static_cast<int>(p.x), width_ - 1), y = std::min(static_cast<int>(p.y), height_ - 1);
@@ -250,8 +250,8 @@ EnvironmentMap::Seen EnvironmentMap::look(const Place& at, EnvironmentAim aim) c
 
 /// A texel by what it sends, then a place in it: the weight is linear in x and in y between its centre and
 /// its edges.
-std::optional<EnvironmentMap::Seen> EnvironmentMap::sample(vec2 u, EnvironmentAim aim) const {
-  const Density& by = density(aim);
+std::optional<EnvironmentMap::RadianceSample> EnvironmentMap::sample(vec2 u, EnvironmentDensity of) const {
+  const Density& by = density(of);
   WeightedGrid::Sample cell = by.texels.sample(u);
   const auto x = static_cast<int>(cell.column), line = static_cast<int>(cell.row);
   const int face = line / height_, y = line % height_;
@@ -284,11 +284,11 @@ std::optional<EnvironmentMap::Seen> EnvironmentMap::sample(vec2 u, EnvironmentAi
   Footprint seen = footprint(face, at.q);
   const float pdf = mix_weights(seen.texels, seen.f, by.dark) * factor(by, x, y) * per_steradian(at, *d);
   if (!(pdf > 0)) return std::nullopt; // the very end of a ramp that begins at nothing
-  return Seen{*d, mix_square(seen.texels, seen.f), pdf};
+  return RadianceSample{*d, mix_square(seen.texels, seen.f), pdf};
 }
 
 /// Of a texel: exact for latlong, by its centre for the others. One on the rim of an angular map is weighed
-/// by its innermost point, so that none that reaches into the disc has no weight.
+/// by its current point, so that none that reaches into the disc has no weight.
 double EnvironmentMap::texel_solid_angle(int x, int y) const {
   vec2 size(width_, height_), q = (vec2(x, y) + 0.5f) / size;
   switch (mapping_) {
@@ -352,7 +352,7 @@ EnvironmentMap::Density EnvironmentMap::make_density(float dark, const Progress*
 
 std::size_t EnvironmentMap::memory_bytes() const {
   return (panorama_->image.pixels.size() + padded_faces_.pixels.size()) * sizeof(vec3) +
-         all_.texels.memory_bytes() + bright_.texels.memory_bytes();
+         full_.texels.memory_bytes() + compensated_.texels.memory_bytes();
 }
 
 } // namespace candela

@@ -14,6 +14,7 @@
 //
 // An image whose sides have other proportions is stretched.
 
+#include "core/spectrum.h"
 #include "sampling/weighted_grid.h"
 #include "scene/scene_desc.h"
 
@@ -21,14 +22,13 @@
 
 namespace candela {
 
-/// What of a panorama is aimed at.
-enum class EnvironmentAim {
-  all,
-  /// What is brighter than the mean, by how much it is. For estimates that find the rest by chance and weigh
-  /// both (Karlik et al. 2019, "MIS Compensation"): a sun then gets all the rays that are aimed, its sky
-  /// those that the BSDF scatters. On a ball under both (tests/bench/versus_cycles) relMSE x spp falls from
-  /// 0.058 to 0.031.
-  bright,
+/// What light sampling of a panorama is in proportion to.
+enum class EnvironmentDensity {
+  full, ///< the luminance
+  /// The luminance above the mean. For estimates that combine it with BSDF sampling by MIS, which finds the
+  /// rest (Karlik et al. 2019, "MIS Compensation"): all light samples go to a sun, none to its sky. On a ball
+  /// under both (tests/bench/versus_cycles) relMSE x spp falls from 0.058 to 0.031.
+  compensated,
 };
 
 class EnvironmentMap {
@@ -42,36 +42,38 @@ public:
 
   /// W/(m^2 sr) that arrives from the unit direction d: bilinear between texel centres, also across the edges
   /// of a cube's faces.
-  vec3 radiance(vec3 d) const;
+  Spectrum radiance(vec3 d) const;
 
   /// A direction and what is there.
-  struct Seen {
+  struct RadianceSample {
     vec3 direction{0}; ///< unit
-    vec3 radiance{0};
+    Spectrum radiance{0};
     float pdf = 0; ///< 1/sr
   };
   /// u in [0, 1)^2; nothing for a u outside of the disc of an angular map, or where nothing shines. The
-  /// density is the interpolated luminance (of `bright`: the interpolation of what texels have above the
+  /// density is the interpolated luminance (of `compensated`: the interpolation of what texels have above the
   /// mean) times a factor that varies little: the solid angle of a texel over that of the place, as if the
   /// texel were as large everywhere.
-  std::optional<Seen> sample(vec2 u, EnvironmentAim aim = EnvironmentAim::all) const;
+  std::optional<RadianceSample> sample(vec2 u, EnvironmentDensity of = EnvironmentDensity::full) const;
   /// Where a direction is on the chart.
   struct Place {
     vec3 direction{0}; ///< unit
     int face = 0;      ///< 0 of an image that is no cube's
     vec2 q{0};         ///< of the face's square, in [0, 1)^2, y downwards
   };
-  /// Finds the place of the unit direction d and sends for its texels, which look() will want: they come
+  /// Finds the place of the unit direction d and sends for its texels, which lookup() will want: they come
   /// from anywhere in a large image.
   Place locate(vec3 d) const;
   /// radiance() and pdf() at once.
-  Seen look(const Place& at, EnvironmentAim aim = EnvironmentAim::all) const;
-  Seen look(vec3 d, EnvironmentAim aim = EnvironmentAim::all) const { return look(locate(d), aim); }
+  RadianceSample lookup(const Place& at, EnvironmentDensity of = EnvironmentDensity::full) const;
+  RadianceSample lookup(vec3 d, EnvironmentDensity of = EnvironmentDensity::full) const {
+    return lookup(locate(d), of);
+  }
   /// The density of sample(), 1/sr.
-  float pdf(vec3 d, EnvironmentAim aim = EnvironmentAim::all) const { return look(d, aim).pdf; }
+  float pdf(vec3 d, EnvironmentDensity of = EnvironmentDensity::full) const { return lookup(d, of).pdf; }
 
-  /// Luminance over the sphere of what is aimed at, W/m^2.
-  float total_luminance(EnvironmentAim aim = EnvironmentAim::all) const { return density(aim).total; }
+  /// Luminance over the sphere of what is sampled, W/m^2.
+  float total_luminance(EnvironmentDensity of = EnvironmentDensity::full) const { return density(of).total; }
   std::size_t memory_bytes() const;
 
 private:
@@ -100,8 +102,8 @@ private:
   ChartPoint chart_point(vec3 d) const;
   std::optional<vec3> direction(ChartPoint at) const;
   float per_steradian(ChartPoint at, vec3 d) const;
-  const Density& density(EnvironmentAim aim) const {
-    return aim == EnvironmentAim::bright && bright_.total > 0 ? bright_ : all_;
+  const Density& density(EnvironmentDensity of) const {
+    return of == EnvironmentDensity::compensated && compensated_.total > 0 ? compensated_ : full_;
   }
 
   void cut_faces(const Progress* progress);
@@ -111,7 +113,7 @@ private:
   vec3 texel(int face, int x, int y) const { return row(face, y)[column(x)]; }
   Corners corners(int face, vec2 q) const;
   Footprint footprint(int face, vec2 q) const;
-  vec3 lookup(int face, vec2 q) const;
+  Spectrum bilinear(int face, vec2 q) const;
   double texel_solid_angle(int x, int y) const;
   float factor(const Density& density, int x, int y) const;
   Density make_density(float dark, const Progress* progress) const;
@@ -120,7 +122,7 @@ private:
   EnvironmentMapping mapping_;
   int faces_ = 1, width_ = 0, height_ = 0; ///< of each face, in texels
   Image padded_faces_;                     ///< cubes: with a border of one texel, one below the other
-  Density all_, bright_;                   ///< no total in bright_: the panorama is too even to leave any out
+  Density full_, compensated_; ///< no total in compensated_: the panorama is too even to leave any out
 };
 
 } // namespace candela

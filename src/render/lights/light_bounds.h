@@ -2,7 +2,6 @@
 // What choosing among lights knows of one, or of several: where they are and which way they shine.
 
 #include "core/bounds.h"
-#include "render/lights/light.h"
 
 namespace candela {
 
@@ -19,16 +18,18 @@ struct LightBounds {
   bool two_sided = false;
 };
 
-/// Of one light; nothing for those that are at no place or do not fall off with the square of the distance.
-std::optional<LightBounds> light_bounds(const Light& light);
+/// So much wider are cones made (radians), lest rounding take away light that just grazes them.
+inline constexpr float kBoundsConeSlack = 1e-3f;
+
+/// Of a ball that shines alike in all directions; intensity in W/sr, luminance.
+LightBounds omnidirectional_bounds(vec3 center, float radius, double intensity);
 
 /// Of both together.
 LightBounds merge(const LightBounds& a, const LightBounds& b);
 
 /// How much the lights may differ in what they contribute to a point, but for the choice of an axis to split:
-/// intensity times the measures of their directions and of their extent (the surface area orientation
-/// heuristic, section 4.4; the box's squared diagonal stands for its area, which vanishes for lights in a
-/// row).
-double spread(const LightBounds& bounds);
+/// the surface area orientation heuristic (section 4.4), intensity times the measures of their directions and
+/// of their extent. The box's squared diagonal stands for its area, which vanishes for lights in a row.
+double saoh_cost(const LightBounds& bounds);
 
 } // namespace candela

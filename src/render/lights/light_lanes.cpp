@@ -1,7 +1,5 @@
 #include "render/lights/light_lanes.h"
 
-#include "render/lights/light_points.h"
-
 namespace candela {
 
 namespace {
@@ -11,11 +9,11 @@ class RectangleQueue {
 public:
   void push(const LightQuery& query, LightSampleLanes& samples) {
     const RectangleLight& light = std::get<RectangleLight>(*query.light);
-    if (!faces(*query.reference, light.corner, light.normal, light.two_sided)) {
+    if (!faces(*query.context, light.corner, light.normal, light.two_sided)) {
       samples.set(query.lane, std::nullopt);
       return;
     }
-    vec3 d = light.corner - query.reference->position;
+    vec3 d = light.corner - query.context->position;
     const std::size_t n = batch_.count++;
     queries_[n] = &query;
     auto wide = [](float value) { return static_cast<double>(value); };
@@ -31,8 +29,8 @@ public:
       const LightQuery& query = *queries_[n];
       const RectangleLight& light = std::get<RectangleLight>(*query.light);
       const vec2 place(static_cast<float>(batch_.x[n]), static_cast<float>(batch_.y[n]));
-      RectanglePoint p =
-          point_on(light, *query.reference, query.u, place, static_cast<float>(batch_.solid_angle[n]));
+      RectangleLight::Point p =
+          light.point(*query.context, query.u, place, static_cast<float>(batch_.solid_angle[n]));
       const std::size_t i = query.lane;
       samples.set_area(i, p.pdf, p.position, light.point_error, light.normal, light.emission);
     }
@@ -55,23 +53,23 @@ struct SphereLanes {
   for (std::size_t i = 0; i < count; ++i) {
     vec3 center = s.center[i];
     float radius = s.radius[i];
-    SpherePoint p = point_towards(s.to_center[i], radius, {s.u[i], s.v[i]});
+    SphereLight::Point p = SphereLight::point_towards(s.to_center[i], radius, {s.u[i], s.v[i]});
     vec3 offset = radius * p.normal;
     s.normal.set(i, p.normal);
     s.point.set(i, center + offset);
-    s.error.set(i, sphere_point_error(center, offset));
+    s.error.set(i, SphereLight::point_error(center, offset));
     s.pdf[i] = p.pdf;
   }
 }
 
-/// The same for spheres.
+/// The same for spheres, those seen from inside apart.
 class SphereQueue {
 public:
   void push(const LightQuery& query, LightSampleLanes& samples) {
     const SphereLight& light = std::get<SphereLight>(*query.light);
-    vec3 to_center = light.center - query.reference->position;
+    vec3 to_center = light.center - query.context->position;
     if (!(length_squared(to_center) > sqr(light.radius))) { // from inside
-      samples.set(query.lane, light.sample(*query.reference, query.u));
+      samples.set(query.lane, light.sample(*query.context, query.u));
       return;
     }
     const std::size_t n = count_++;
@@ -111,7 +109,7 @@ void LightSampleLanes::set(std::size_t i, const std::optional<LightSample>& samp
 }
 
 void LightSampleLanes::set_area(std::size_t i, float density, vec3 place, vec3 error, vec3 normal,
-                                vec3 emission) {
+                                Spectrum emission) {
   pdf[i] = density;
   point.set(i, place);
   point_error.set(i, error);
@@ -122,6 +120,7 @@ void LightSampleLanes::set_area(std::size_t i, float density, vec3 place, vec3 e
 }
 
 void sample_lights(std::span<const LightQuery> queries, LightSampleLanes& samples) {
+  // Only these two are worth vector code; all others are sampled one by one.
   RectangleQueue rectangles;
   SphereQueue spheres;
   for (const LightQuery& query : queries)
@@ -130,7 +129,7 @@ void sample_lights(std::span<const LightQuery> queries, LightSampleLanes& sample
     else if (std::holds_alternative<SphereLight>(*query.light))
       spheres.push(query, samples);
     else
-      samples.set(query.lane, sample_light(*query.light, *query.reference, query.u));
+      samples.set(query.lane, sample_light(*query.light, *query.context, query.u));
   rectangles.sample(samples);
   spheres.sample(samples);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Which light next-event estimation asks.
+// Which light next-event estimation samples.
 
 #include "render/lights/light_tree.h"
 #include "sampling/distribution.h"
@@ -8,7 +8,7 @@
 namespace candela {
 
 /// Choice among some of a scene's lights, as path.light_choice has it: in proportion to power, or by what
-/// they may contribute to the point that asks. Lights of which too many are without bounds (kMostApart) are
+/// they may contribute to the shading point. Lights of which too many are unbounded (kMaxUnboundedLights) are
 /// chosen by power in any case.
 class LightSelection {
 public:
@@ -20,18 +20,18 @@ public:
 
   /// Nothing that shines.
   bool empty() const { return by_power_ ? powers_.empty() : tree_.empty(); }
-  /// Whether what the point is like makes a difference.
-  bool is_choice() const { return !by_power_ && tree_.size() > 1; }
+  /// Whether the choice depends on the shading point.
+  bool depends_on_context() const { return !by_power_ && tree_.size() > 1; }
   /// A light for u in [0, 1), monotonic in u but for choices by power; nothing where none seems to reach the
   /// point.
-  std::optional<LightChoice> choose(const LightReference& ref, float u) const {
-    if (!by_power_) return tree_.choose(ref, u);
+  std::optional<LightChoice> choose(const LightSamplingContext& ctx, float u) const {
+    if (!by_power_) return tree_.choose(ctx, u);
     AliasTable::Sample s = powers_.sample(u);
     return LightChoice{s.index, s.pmf, s.u};
   }
   /// Probability with which choose() gives a light.
-  float pmf(const LightReference& ref, std::uint32_t light) const {
-    if (!by_power_) return tree_.pmf(ref, light);
+  float pmf(const LightSamplingContext& ctx, std::uint32_t light) const {
+    if (!by_power_) return tree_.pmf(ctx, light);
     return powers_.empty() ? 0 : powers_.pmf(light);
   }
   std::size_t memory_bytes() const { return tree_.memory_bytes(); }

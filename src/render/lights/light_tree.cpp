@@ -19,42 +19,27 @@ constexpr float kSphereSlack = 1 + 1e-4f;
 /// Keeps what a point light does to a point that it sits on finite.
 constexpr float kLeastDistance2 = 1e-30f;
 
-/// Irradiance in luminance (W/m^2) of a light without bounds, of those that are the same for all points: on
-/// an average plane.
-double irradiance_everywhere(const Light& light, EnvironmentAim aim) {
-  if (const auto* c = std::get_if<ConstantLight>(&light))
-    return static_cast<double>(kPi * luminance(c->radiance));
-  if (const auto* e = std::get_if<EnvironmentLight>(&light))
-    return 0.25 * static_cast<double>(luminance(e->factor) * e->map->total_luminance(aim));
-  return 0;
+/// The share of irradiance on a facing plane that the point scatters, relative: of light from one direction.
+float response(const LightSamplingContext& ctx, vec3 direction) {
+  const LobeProxy& lobe = ctx.lobe;
+  const float cosine = ctx.cosine_factor(direction);
+  if (!ctx.accepts(direction)) return 0;
+  const float off = 1 + lobe.sharpness * (1 - glm::dot(direction, ctx.lobe_axis));
+  return lobe.diffuse * cosine + lobe.peak / sqr(off);
 }
-
-/// Of the others: what they would be, for a scale to judge them by.
-double usual_irradiance(const Light& light) {
-  if (const auto* d = std::get_if<DirectionalLight>(&light))
-    return static_cast<double>(luminance(d->irradiance));
-  if (const auto* p = std::get_if<PointLight>(&light)) return static_cast<double>(luminance(p->intensity));
-  if (const auto* s = std::get_if<SpotLight>(&light)) return static_cast<double>(luminance(s->intensity));
-  return irradiance_everywhere(light, EnvironmentAim::all);
-}
-
-/// What the reference makes of irradiance on a facing plane, relative: of light from one direction.
-float response(const LightReference& ref, vec3 direction) {
-  const Gloss& g = ref.gloss;
-  const float cosine = glm::dot(direction, ref.normal), cos_in = std::abs(cosine);
-  if (!ref.accepts(cosine)) return 0;
-  const float off = 1 + g.sharpness * (1 - glm::dot(direction, ref.mirrored));
-  return g.diffuse * cos_in + g.peak / sqr(off);
-}
-/// Of light from everywhere.
-float mean_response(const LightReference& ref) {
-  return ref.gloss.diffuse + ref.gloss.lobe_albedo() * kInvPi;
+/// Of light from everywhere, whose irradiance is that of an average plane: a surface that transmits gets it
+/// on both sides, and a point in a medium four times as much, for it has no cosine.
+float mean_response(const LightSamplingContext& ctx) {
+  const float sides = ctx.domain == ScatteringDomain::hemisphere ? 1.0f
+                      : ctx.domain == ScatteringDomain::sphere   ? 2.0f
+                                                                 : 4.0f;
+  return sides * (ctx.lobe.diffuse + ctx.lobe.lobe_albedo() * kInvPi);
 }
 
 constexpr int kBins = 12;
 
-/// How the lights are best cut in two: the bin of an axis that the right half begins with.
-struct Cut {
+/// How the lights are best split in two: the bin of an axis that the right half begins with.
+struct Split {
   int axis = -1, bin = 0;
 };
 
@@ -75,21 +60,21 @@ LightTree::LightTree(std::span<const Light> lights, std::span<const std::uint32_
     if (auto bounds = light_bounds(lights[i])) {
       strength = bounds->intensity;
       if (strength > 0) leaves.push_back({*bounds, i, kNone, kNone});
-    } else if (strength = usual_irradiance(lights[i]); strength > 0) {
-      if (apart_.size() == kMostApart) throw std::invalid_argument("too many lights without bounds");
-      places_[i] = {0, static_cast<std::uint32_t>(kWidth + apart_.size())};
-      apart_.push_back({i, lights[i], {}});
+    } else if (strength = light_typical_irradiance(lights[i]); strength > 0) {
+      if (unbounded_.size() == kMaxUnboundedLights) throw std::invalid_argument("too many unbounded lights");
+      places_[i] = {0, static_cast<std::uint32_t>(kWidth + unbounded_.size())};
+      unbounded_.push_back({i, lights[i], {}});
     }
     greatest = std::max(greatest, strength);
   }
-  count_ = leaves.size() + apart_.size();
+  count_ = leaves.size() + unbounded_.size();
   if (count_ == 0) return;
-  only_ = leaves.empty() ? apart_[0].light : leaves[0].light;
+  only_ = leaves.empty() ? unbounded_[0].light : leaves[0].light;
   scale_ = 1 / greatest;
-  for (Apart& a : apart_)
-    for (EnvironmentAim aim : {EnvironmentAim::all, EnvironmentAim::bright})
-      a.irradiance[aim == EnvironmentAim::bright] =
-          static_cast<float>(irradiance_everywhere(a.what, aim) * scale_);
+  for (Unbounded& one : unbounded_)
+    for (EnvironmentDensity density : {EnvironmentDensity::full, EnvironmentDensity::compensated})
+      one.irradiance[density == EnvironmentDensity::compensated] =
+          static_cast<float>(light_mean_irradiance(one.what, density) * scale_);
   std::vector<BinaryNode> nodes;
   if (leaves.empty()) {
     nodes_.emplace_back();
@@ -99,7 +84,7 @@ LightTree::LightTree(std::span<const Light> lights, std::span<const std::uint32_
   }
 }
 
-/// Cuts where the halves' spreads have the least sum, weighted against thin boxes (section 4.4).
+/// Splits where the halves' SAOH costs have the least sum, weighted against thin boxes (section 4.4).
 std::uint32_t LightTree::build(std::span<BinaryNode> leaves, std::vector<BinaryNode>& nodes,
                                const Progress* progress) {
   if (leaves.size() == 1) {
@@ -109,7 +94,7 @@ std::uint32_t LightTree::build(std::span<BinaryNode> leaves, std::vector<BinaryN
   if (progress != nullptr) progress->check();
   Bounds3 centers;
   for (const BinaryNode& leaf : leaves) centers.grow(leaf.bounds.center);
-  Cut best;
+  Split best;
   double least = std::numeric_limits<double>::infinity();
   float longest = max_component(centers.diagonal());
   for (int axis = 0; axis < 3; ++axis) {
@@ -125,12 +110,12 @@ std::uint32_t LightTree::build(std::span<BinaryNode> leaves, std::vector<BinaryN
     std::optional<LightBounds> right, left;
     for (std::size_t b = kBins - 1; b > 0; --b) {
       add(right, bins[b]);
-      right_cost[b] = spread(*right);
+      right_cost[b] = saoh_cost(*right);
     }
     double thinness = static_cast<double>(longest) / static_cast<double>(hi - lo);
     for (std::size_t b = 1; b < kBins; ++b) {
       add(left, bins[b - 1]);
-      double cost = thinness * (spread(*left) + right_cost[b]);
+      double cost = thinness * (saoh_cost(*left) + right_cost[b]);
       if (cost < least) least = cost, best = {axis, static_cast<int>(b)};
     }
   }
@@ -156,8 +141,8 @@ std::uint32_t LightTree::flatten(const std::vector<BinaryNode>& nodes, std::uint
     auto widest = branches.end();
     double most = -1;
     for (auto b = branches.begin(); b != branches.end(); ++b)
-      if (nodes[*b].light == kNone && spread(nodes[*b].bounds) > most)
-        most = spread(nodes[*b].bounds), widest = b;
+      if (nodes[*b].light == kNone && saoh_cost(nodes[*b].bounds) > most)
+        most = saoh_cost(nodes[*b].bounds), widest = b;
     if (widest == branches.end()) break;
     std::uint32_t right = nodes[*widest].right;
     *widest = nodes[*widest].left;
@@ -190,26 +175,35 @@ std::uint32_t LightTree::flatten(const std::vector<BinaryNode>& nodes, std::uint
   return index;
 }
 
-float LightTree::judge(const Node& node, const LightReference& ref, Weights& weights) {
-  const bool glossy = ref.gloss.peak > 0;
-  if (ref.transmits)
-    return glossy ? judge_as<true, true>(node, ref, weights) : judge_as<false, true>(node, ref, weights);
-  return glossy ? judge_as<true, false>(node, ref, weights) : judge_as<false, false>(node, ref, weights);
+float LightTree::importance(const Node& node, const LightSamplingContext& ctx, Importances& out) {
+  const bool glossy = ctx.lobe.peak > 0;
+  auto with = [&](auto domain) {
+    return glossy ? importance_as<true, domain()>(node, ctx, out)
+                  : importance_as<false, domain()>(node, ctx, out);
+  };
+  switch (ctx.domain) {
+  case ScatteringDomain::hemisphere: break;
+  case ScatteringDomain::sphere:
+    return with(std::integral_constant<ScatteringDomain, ScatteringDomain::sphere>());
+  case ScatteringDomain::volume:
+    return with(std::integral_constant<ScatteringDomain, ScatteringDomain::volume>());
+  }
+  return with(std::integral_constant<ScatteringDomain, ScatteringDomain::hemisphere>());
 }
 
-/// Estimates of what the branches' light does at the reference (section 4.3, eq. 3; without trigonometry as
-/// in pbrt-v4), and their sum. Sines and cosines clamp at 0: cos_minus(a, b) is cos(max(a - b, 0)).
-template <bool kGlossy, bool kTransmits>
-float LightTree::judge_as(const Node& n, const LightReference& ref, Weights& weights) {
+/// Estimates of what the branches' light contributes to the point (section 4.3, eq. 3; without trigonometry
+/// as in pbrt-v4), and their sum. Sines and cosines clamp at 0: cos_minus(a, b) is cos(max(a - b, 0)).
+template <bool kGlossy, ScatteringDomain kDomain>
+float LightTree::importance_as(const Node& n, const LightSamplingContext& ctx, Importances& out) {
   Lanes w;
-  const vec3 p = ref.position, up = ref.normal, mirrored = ref.mirrored;
-  const Gloss gloss = ref.gloss;
+  const vec3 p = ctx.position, up = ctx.normal, axis = ctx.lobe_axis;
+  const LobeProxy lobe = ctx.lobe;
   for (std::size_t i = 0; i < kWidth; ++i) {
     const float dx = n.x[i] - p.x, dy = n.y[i] - p.y, dz = n.z[i] - p.z; // towards the light
     const float d2 = std::max(dx * dx + dy * dy + dz * dz, kLeastDistance2);
     const float inverse = 1 / std::sqrt(d2);
     const float cosine = (dx * up.x + dy * up.y + dz * up.z) * inverse;
-    const float cos_up = kTransmits ? std::abs(cosine) : cosine; // what is behind is accepted, or is not
+    const float cos_up = kDomain == ScatteringDomain::sphere ? std::abs(cosine) : cosine;
     float cos_w = -(dx * n.axis_x[i] + dy * n.axis_y[i] + dz * n.axis_z[i]) * inverse;
     cos_w = std::max(cos_w, -n.other_side[i] * cos_w);
     const float sin_w = std::sqrt(std::max(1 - cos_w * cos_w, 0.0f));
@@ -224,71 +218,71 @@ float LightTree::judge_as(const Node& n, const LightReference& ref, Weights& wei
     const float cos_x = select(among, 1.0f, cos_w * n.cos_o[i] + sin_w * n.sin_o[i]);
     const float sin_x = select(among, 0.0f, sin_w * n.cos_o[i] - cos_w * n.sin_o[i]);
     const float cos_off = select(cos_x >= cos_b, 1.0f, cos_x * cos_b + sin_x * sin_b);
-    // And off the reference's normal.
+    // And off the point's normal, if it has one.
     const float cos_in = select(cos_up >= cos_b, 1.0f, cos_up * cos_b + sin_up * sin_b);
-    const float shine = select(cos_off >= n.cos_e[i], std::max(cos_off, 0.0f), 0.0f);
-    float made = std::max(cos_in, 0.0f);
+    const float emitted = select(cos_off >= n.cos_e[i], std::max(cos_off, 0.0f), 0.0f);
+    float received = kDomain == ScatteringDomain::volume ? 1.0f : std::max(cos_in, 0.0f);
     if constexpr (kGlossy) {
-      const float cos_m = (dx * mirrored.x + dy * mirrored.y + dz * mirrored.z) * inverse;
+      const float cos_m = (dx * axis.x + dy * axis.y + dz * axis.z) * inverse;
       const float sin_m = std::sqrt(std::max(1 - cos_m * cos_m, 0.0f));
       const float cos_near = select(cos_m >= cos_b, 1.0f, cos_m * cos_b + sin_m * sin_b);
-      const float off = 1 + gloss.sharpness * (1 - cos_near);
-      made = select(made > 0, gloss.diffuse * made + gloss.peak / (off * off), 0.0f);
+      const float off = 1 + lobe.sharpness * (1 - cos_near);
+      received = select(received > 0, lobe.diffuse * received + lobe.peak / (off * off), 0.0f);
     }
-    w[i] = n.intensity[i] * shine * made / std::max(d2, n.least_d2[i]);
+    w[i] = n.intensity[i] * emitted * received / std::max(d2, n.least_d2[i]);
   }
   float sum = 0;
-  for (std::size_t i = 0; i < kWidth; ++i) weights.each[i] = w[i], weights.sum[i] = sum += w[i];
+  for (std::size_t i = 0; i < kWidth; ++i) out.each[i] = w[i], out.sum[i] = sum += w[i];
   return sum;
 }
 
-float LightTree::judge_root(const LightReference& ref, Weights& weights) const {
-  float sum = judge(nodes_[0], ref, weights);
-  for (std::size_t i = 0; i < apart_.size(); ++i) {
-    float worth = apart_[i].irradiance[ref.also_by_chance] * mean_response(ref);
-    if (is_delta_light(apart_[i].what)) { // there is one sample, and it tells all
-      auto s = sample_light(apart_[i].what, ref, vec2(0));
+float LightTree::root_importance(const LightSamplingContext& ctx, Importances& out) const {
+  float sum = importance(nodes_[0], ctx, out);
+  for (std::size_t i = 0; i < unbounded_.size(); ++i) {
+    float importance_here = unbounded_[i].irradiance[ctx.mis_with_bsdf] * mean_response(ctx);
+    if (is_delta_light(unbounded_[i].what)) { // its one sample tells the irradiance
+      auto s = sample_light(unbounded_[i].what, ctx, vec2(0));
       if (s)
-        worth = static_cast<float>(scale_ * static_cast<double>(luminance(s->radiance))) *
-                response(ref, s->direction);
+        importance_here = static_cast<float>(scale_ * static_cast<double>(luminance(s->radiance))) *
+                          response(ctx, s->direction);
     }
-    weights.each[kWidth + i] = worth;
-    weights.sum[kWidth + i] = sum += worth;
+    out.each[kWidth + i] = importance_here;
+    out.sum[kWidth + i] = sum += importance_here;
   }
   return sum;
 }
 
-std::optional<LightChoice> LightTree::descend(const LightReference& ref, float u) const {
-  Weights weights;
-  float sum = judge_root(ref, weights), pmf = 1;
-  std::size_t branches = kWidth + apart_.size();
+std::optional<LightChoice> LightTree::descend(const LightSamplingContext& ctx, float u) const {
+  Importances found;
+  float sum = root_importance(ctx, found), pmf = 1;
+  std::size_t branches = kWidth + unbounded_.size();
   const Node* node = nodes_.data();
   while (sum > 0) {
     // The first branch whose sum is above u's share; there is one, for u times the whole rounds to less than
-    // the whole, and it is worth something, for its sum is above its predecessor's.
+    // the whole, and its importance is not 0, for its sum is above its predecessor's.
     const float share = u * sum;
     std::size_t lane = 0;
-    for (std::size_t i = 0; i < kWidth; ++i) lane += weights.sum[i] <= share ? 1 : 0;
-    for (std::size_t i = kWidth; i < branches; ++i) lane += weights.sum[i] <= share ? 1 : 0;
-    const float worth = weights.each[lane];
-    u = std::clamp((share - (lane > 0 ? weights.sum[lane - 1] : 0)) / worth, 0.0f, kOneMinusEpsilon);
-    pmf *= worth / sum;
-    if (lane >= kWidth) return LightChoice{apart_[lane - kWidth].light, pmf, u};
+    for (std::size_t i = 0; i < kWidth; ++i) lane += found.sum[i] <= share ? 1 : 0;
+    for (std::size_t i = kWidth; i < branches; ++i) lane += found.sum[i] <= share ? 1 : 0;
+    const float importance_here = found.each[lane];
+    u = std::clamp((share - (lane > 0 ? found.sum[lane - 1] : 0)) / importance_here, 0.0f, kOneMinusEpsilon);
+    pmf *= importance_here / sum;
+    if (lane >= kWidth) return LightChoice{unbounded_[lane - kWidth].light, pmf, u};
     if ((node->leaves >> lane & 1) != 0) return LightChoice{node->below[lane], pmf, u};
     node = &nodes_[node->below[lane]];
     branches = kWidth;
-    sum = judge(*node, ref, weights);
+    sum = importance(*node, ctx, found);
   }
   return std::nullopt;
 }
 
-float LightTree::ascend(const LightReference& ref, std::uint32_t light) const {
-  Weights weights;
+float LightTree::ascend(const LightSamplingContext& ctx, std::uint32_t light) const {
+  Importances found;
   float pmf = 1;
   for (Place at = places_[light]; at.node != kNone; at = nodes_[at.node].parent) {
-    float sum = at.node == 0 ? judge_root(ref, weights) : judge(nodes_[at.node], ref, weights);
-    if (!(weights.each[at.lane] > 0)) return 0;
-    pmf *= weights.each[at.lane] / sum;
+    float sum = at.node == 0 ? root_importance(ctx, found) : importance(nodes_[at.node], ctx, found);
+    if (!(found.each[at.lane] > 0)) return 0;
+    pmf *= found.each[at.lane] / sum;
     if (at.node == 0) return pmf;
   }
   return 0;

@@ -2,9 +2,10 @@
 // Choosing a light by what it may contribute to a point.
 
 #include "core/progress.h"
-#include "render/lights/light_bounds.h"
+#include "render/lights/light.h"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace candela {
@@ -17,22 +18,22 @@ struct LightChoice {
 };
 
 /// A tree over lights (Conty Estevez & Kulla 2018; pbrt-v4, section 12.6.3), eight branches a node: a draw
-/// goes down in proportion to a bound-like estimate of each branch's irradiance, so the eight are judged
-/// side by side by the vector unit, and up to eight lights are judged each by itself. Lights that are at no
-/// place, or that fall off in a way of their own, are judged one by one beside the root's branches. Where the
-/// reference is glossy, what counts is how near a branch may come to its lobe's axis: on Veach's plates
+/// goes down in proportion to a bound-like estimate of each branch's irradiance, eight side
+/// by side by the vector unit; up to eight lights have each its own. Unbounded lights (those at no place, or
+/// that fall off in a way of their own) are estimated one by one beside the root's branches. Where the BSDF
+/// is glossy, what counts is how near a branch may come to its lobe's axis: on Veach's plates
 /// (tests/bench/versus_cycles) relMSE x spp falls from 0.064 to 0.014.
 ///
-/// Whatever lights a point has probability: what is left out is wholly on a side of it from which it accepts
-/// no light (LightReference::accepts), or looks away.
+/// Every light that contributes to a point has probability: what is left out is wholly on a side from which
+/// the point accepts no light (LightSamplingContext::accepts), or faces away.
 class LightTree {
 public:
-  /// As many lights as that may be such that light_bounds() has nothing for them.
-  static constexpr std::size_t kMostApart = 64;
+  /// Of lights that light_bounds() has nothing for.
+  static constexpr std::size_t kMaxUnboundedLights = 64;
 
   LightTree() = default;
-  /// Over those of `lights` that `members` indexes. Throws std::invalid_argument where too many are apart.
-  /// Throws Cancelled soon after `progress` is told to end; it may be null.
+  /// Over those of `lights` that `members` indexes. Throws std::invalid_argument where too many are
+  /// unbounded. Throws Cancelled soon after `progress` is told to end; it may be null.
   LightTree(std::span<const Light> lights, std::span<const std::uint32_t> members,
             const Progress* progress = nullptr);
 
@@ -42,14 +43,14 @@ public:
   std::size_t size() const { return count_; }
   /// A light for u in [0, 1); monotonic in u, in an order that keeps neighbours together. Nothing where none
   /// seems to reach the point, which may be so for some u only.
-  std::optional<LightChoice> choose(const LightReference& ref, float u) const {
+  std::optional<LightChoice> choose(const LightSamplingContext& ctx, float u) const {
     if (count_ == 1) return LightChoice{only_, 1, u};
-    return descend(ref, u);
+    return descend(ctx, u);
   }
   /// Probability of choose() to give a light, which is one of all `lights`.
-  float pmf(const LightReference& ref, std::uint32_t light) const {
+  float pmf(const LightSamplingContext& ctx, std::uint32_t light) const {
     if (count_ == 1) return light == only_ ? 1.0f : 0.0f;
-    return ascend(ref, light);
+    return ascend(ctx, light);
   }
   std::size_t memory_bytes() const { return nodes_.size() * sizeof(Node) + places_.size() * sizeof(Place); }
 
@@ -58,7 +59,7 @@ private:
   using Lanes = std::array<float, kWidth>;
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
-  /// A branch of a node, or where there is none, kNone; beyond kWidth come the root's lights apart.
+  /// A branch of a node, or where there is none, kNone; beyond kWidth come the root's unbounded lights.
   struct Place {
     std::uint32_t node = kNone, lane = 0;
   };
@@ -73,30 +74,30 @@ private:
     std::uint32_t leaves = 0;
     Place parent;
   };
-  struct Apart {
+  struct Unbounded {
     std::uint32_t light;
     Light what;
-    /// Where it is the same for all: by whether light is found by chance as well.
+    /// light_mean_irradiance, scaled, by whether the density is compensated.
     std::array<float, 2> irradiance;
   };
   struct BinaryNode;
-  /// What branches are worth, and the sums of that up to and with each.
-  struct Weights {
-    std::array<float, kWidth + kMostApart> each, sum;
+  /// Importances of branches, and their running sums.
+  struct Importances {
+    std::array<float, kWidth + kMaxUnboundedLights> each, sum;
   };
 
   static std::uint32_t build(std::span<BinaryNode> leaves, std::vector<BinaryNode>& nodes,
                              const Progress* progress);
   std::uint32_t flatten(const std::vector<BinaryNode>& nodes, std::uint32_t root, Place parent);
-  std::optional<LightChoice> descend(const LightReference& ref, float u) const;
-  float ascend(const LightReference& ref, std::uint32_t light) const;
-  static float judge(const Node& node, const LightReference& ref, Weights& weights);
-  template <bool kGlossy, bool kTransmits>
-  static float judge_as(const Node& node, const LightReference& ref, Weights& weights);
-  float judge_root(const LightReference& ref, Weights& weights) const;
+  std::optional<LightChoice> descend(const LightSamplingContext& ctx, float u) const;
+  float ascend(const LightSamplingContext& ctx, std::uint32_t light) const;
+  static float importance(const Node& node, const LightSamplingContext& ctx, Importances& out);
+  template <bool kGlossy, ScatteringDomain kDomain>
+  static float importance_as(const Node& node, const LightSamplingContext& ctx, Importances& out);
+  float root_importance(const LightSamplingContext& ctx, Importances& out) const;
 
   std::vector<Node> nodes_; ///< the root first, whatever the lights
-  std::vector<Apart> apart_;
+  std::vector<Unbounded> unbounded_;
   std::vector<Place> places_; ///< of each light
   std::size_t count_ = 0;     ///< of lights that shine
   std::uint32_t only_ = 0;    ///< the light, if there is but one

@@ -14,8 +14,8 @@ T interpolate(T a, T b, T c, float u, float v) {
 
 } // namespace
 
-Surface Geometry::surface(const Ray& ray, const Hit& hit) const {
-  Surface s; // made where the caller wants it: copies of what has just been written by parts stall
+SurfaceInteraction Geometry::surface(const Ray& ray, const Hit& hit) const {
+  SurfaceInteraction s; // made where the caller wants it: copies of what has just been written by parts stall
   if (hit.kind == PrimitiveKind::triangle) {
     const bool shared = hit.instance != kNoInstance;
     const TriangleSet& set = shared ? objects_[placed_[hit.instance].object]->set : world_;

@@ -9,7 +9,7 @@
 namespace candela {
 
 /// Where a ray met the scene. World space.
-struct Surface {
+struct SurfaceInteraction {
   vec3 position{0};
   vec3 position_error{0};         ///< absolute bound per axis
   vec3 geometric_normal{0, 0, 1}; ///< unit; to the outside of spheres, by the winding of triangles
@@ -65,7 +65,7 @@ public:
   BuildQuality quality() const { return quality_; }
   const Accel& accel() const { return accel_; }
   /// Fills in the rest of what is known about a hit of `ray`.
-  Surface surface(const Ray& ray, const Hit& hit) const;
+  SurfaceInteraction surface(const Ray& ray, const Hit& hit) const;
   /// Texture coordinates of a hit of `ray`, in the shape's own space: they go wherever its transform takes
   /// it. (0, 0) on meshes that have none. Apart from the rest, which most surfaces are content with.
   vec2 uv(const Ray& ray, const Hit& hit) const;

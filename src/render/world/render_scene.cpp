@@ -85,10 +85,10 @@ void SceneMaterials::add_materials(const Document& document) {
     has_transparency_ |= m.opacity < 1;
     materials_.push_back(s);
   }
-  if (o.brdf == BrdfOverride::none) add_interiors(document.scene.materials);
+  if (o.brdf == BrdfOverride::none) add_media(document.scene.materials);
 }
 
-void SceneMaterials::add_interiors(const std::vector<Material>& materials) {
+void SceneMaterials::add_media(const std::vector<Material>& materials) {
   auto is_body = [](const Material& m) { return m.type == MaterialType::dielectric; };
   if (std::ranges::none_of(materials,
                            [&](const Material& m) { return is_body(m) && !is_black(m.absorption); }))
@@ -98,11 +98,11 @@ void SceneMaterials::add_interiors(const std::vector<Material>& materials) {
     if (!is_body(materials[i])) continue;
     const vec3 a = materials[i].absorption;
     const auto [entry, is_new] =
-        known.try_emplace({a.x, a.y, a.z}, static_cast<std::uint16_t>(absorptions_.size()));
-    if (is_new) absorptions_.push_back(a);
-    if (absorptions_.size() >= kNoInterior)
+        known.try_emplace({a.x, a.y, a.z}, static_cast<std::uint16_t>(media_.size()));
+    if (is_new) media_.emplace_back(AbsorbingMedium{a});
+    if (media_.size() >= MediumId::kNone)
       throw Error(ExitCode::limit, "materials: there are more than 65534 different absorptions: use fewer");
-    materials_[i].interior = entry->second;
+    materials_[i].media.inside.index = entry->second;
   }
 }
 

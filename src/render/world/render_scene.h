@@ -25,18 +25,17 @@ public:
   const SurfaceMaterial& material(std::uint32_t index) const { return (*materials_)[index]; }
   /// Whether any surface lets light straight through, so that rays must look.
   bool has_transparency() const { return materials_->has_transparency(); }
-  /// Whether light fades on its way through any body, so that rays must know where they are.
-  bool has_absorption() const { return !materials_->absorptions().empty(); }
-  /// sigma_a of an interior, 1/scene unit.
-  vec3 absorption(std::uint16_t interior) const { return materials_->absorptions()[interior]; }
+  /// Whether any body is filled with something, so that rays must know where they are.
+  bool has_media() const { return !materials_->media().empty(); }
+  const Medium& medium(MediumId id) const { return materials_->media()[id.index]; }
 
   const std::vector<Light>& lights() const { return lights_->lights(); }
   /// The light that a primitive is (part of), or kNoLight.
   std::uint32_t light_of(std::uint64_t emitter) const { return lights_->light_of(emitter); }
   const std::vector<std::uint32_t>& infinite_lights() const { return lights_->infinite_lights(); }
 
-  /// Choice of a light as path.light_choice has it: among all, or among those that no sampled direction can
-  /// hit.
+  /// Choice of a light as path.light_choice has it: among all, or among those that light sampling alone can
+  /// find.
   const LightSelection& all_lights() const { return lights_->all_lights(); }
   const LightSelection& delta_lights() const { return lights_->delta_lights(); }
 

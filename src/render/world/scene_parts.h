@@ -3,6 +3,8 @@
 // made of.
 
 #include "bsdf/bsdf.h"
+#include "media/medium.h"
+#include "media/medium_stack.h"
 #include "render/lights/emitter_lights.h"
 #include "render/lights/light_selection.h"
 #include "render/world/geometry.h"
@@ -10,21 +12,18 @@
 
 namespace candela {
 
-/// Where a surface bounds no body that light enters.
-inline constexpr std::uint16_t kNoInterior = 0xffff;
-
 /// A material as shading needs it.
 struct SurfaceMaterial {
   Bsdf bsdf;
   const Texture* diffuse_texture = nullptr; ///< multiplies the BSDF's diffuse part; null: none
   UvTransform diffuse_uv;                   ///< of that texture
-  vec3 emission{0};                         ///< W/(m^2 sr)
+  Spectrum emission{0};                     ///< W/(m^2 sr)
   float opacity = 1;
   bool emissive = false;
   bool two_sided_emission = false;
-  /// What is behind the surface: RenderScene::absorption() tells its absorption. The same number for bodies
-  /// that absorb the same; of a clear dielectric, too, where anything absorbs: it may lie inside of that.
-  std::uint16_t interior = kNoInterior;
+  /// By RenderScene::medium(). Bodies that absorb the same have the same medium; where anything absorbs, a
+  /// clear dielectric has one, too, for it may lie inside of that.
+  MediumInterface media;
 };
 
 /// A document's materials.
@@ -40,12 +39,12 @@ public:
   auto begin() const { return materials_.begin(); }
   auto end() const { return materials_.end(); }
   bool has_transparency() const { return has_transparency_; }
-  const std::vector<vec3>& absorptions() const { return absorptions_; }
+  const std::vector<Medium>& media() const { return media_; }
   std::size_t memory_bytes() const;
 
 private:
   void add_materials(const Document& document);
-  void add_interiors(const std::vector<Material>& materials);
+  void add_media(const std::vector<Material>& materials);
 
   // Made of:
   std::vector<Material> source_;
@@ -54,7 +53,7 @@ private:
 
   std::vector<SurfaceMaterial> materials_;
   bool has_transparency_ = false;
-  std::vector<vec3> absorptions_; ///< by interior; empty where nothing absorbs
+  std::vector<Medium> media_; ///< empty where nothing absorbs
 };
 
 /// A document's lights, those of surfaces that emit among them, and the choices of one.

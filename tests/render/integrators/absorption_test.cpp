@@ -1,7 +1,7 @@
 // Beer and Lambert's law in bodies that light goes through: what a ray is inside of absorbs, whatever the ray
 // ends on.
 
-#include "render/integrators/interior.h"
+#include "render/integrators/media_at.h"
 #include "render/render_testing.h"
 
 namespace candela::test {
@@ -156,6 +156,10 @@ TEST(AbsorptionRender, APointLightInGlassFades) {
   }
 }
 
+Spectrum sigma_a(const RenderScene& scene, MediumId medium) {
+  return std::get<AbsorbingMedium>(scene.medium(medium)).sigma_a;
+}
+
 TEST(Absorption, WhatAPointLiesIn) {
   SceneMaker s(1, 1, 1);
   s.sphere({0, 0, 0}, 2, glass(s, {1, 0, 0}));
@@ -166,8 +170,8 @@ TEST(Absorption, WhatAPointLiesIn) {
   s.rectangle({0, 0, -20}, {3, 0, 0}, {0, 3, 0}, glass(s, {4, 0, 0})); // bounds no body
   const auto scene = RenderScene::build(s.document);
   auto absorbs = [&](vec3 p) {
-    const std::uint16_t body = interiors_at(*scene, p).innermost();
-    return body == kNoInterior ? -1.0f : scene->absorption(body).x;
+    const MediumId medium = media_at(*scene, p).current();
+    return medium ? sigma_a(*scene, medium).x : -1.0f;
   };
   EXPECT_EQ(absorbs({0, 0, 3}), -1);
   EXPECT_EQ(absorbs({0, 0, 1.5f}), 1);
@@ -176,39 +180,11 @@ TEST(Absorption, WhatAPointLiesIn) {
   EXPECT_EQ(absorbs({5, 0, 0}), -1);
   EXPECT_EQ(absorbs({0.1f, 9.1f, 0}), 3);
   EXPECT_EQ(absorbs({0, 0, -22}), -1);
-  Interiors way = interiors_at(*scene, {0, 0, 3});
+  MediumStack way = media_at(*scene, {0, 0, 3});
   move_between(*scene, {0, 0, 3}, {-0.6f, 0, 0}, way);
-  EXPECT_EQ(scene->absorption(way.innermost()).x, 2);
+  EXPECT_EQ(sigma_a(*scene, way.current()).x, 2);
   move_between(*scene, {-0.6f, 0, 0}, {-3, 0, 0}, way);
   EXPECT_TRUE(way.empty());
-}
-
-TEST(Absorption, BodiesMayOverlapAndNestDeeply) {
-  Interiors in;
-  in.enter(3);
-  in.enter(5);
-  in.leave(3); // the other one first
-  EXPECT_EQ(in.innermost(), 5);
-  in.leave(4); // was never entered
-  EXPECT_EQ(in.innermost(), 5);
-  in.leave(5);
-  EXPECT_TRUE(in.empty());
-  EXPECT_EQ(in.innermost(), kNoInterior);
-  in.enter(kNoInterior);
-  EXPECT_TRUE(in.empty());
-  for (std::uint16_t i = 0; i < 100; ++i) in.enter(i);
-  for (std::uint16_t i = 99; i > 95; --i) {
-    EXPECT_EQ(in.innermost(), i);
-    in.leave(i);
-  }
-}
-
-TEST(Absorption, OnAnInfiniteWayAllOrNothingIsLeft) {
-  SceneMaker s(1, 1, 1);
-  s.sphere({0, 0, 0}, 1, glass(s, {1, 0, 1e-30f}));
-  const auto scene = RenderScene::build(s.document);
-  EXPECT_EQ(transmittance(*scene, interiors_at(*scene, {0, 0, 0}), kInfinity), vec3(0, 1, 0));
-  EXPECT_EQ(transmittance(*scene, Interiors(), kInfinity), vec3(1));
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 // the bound on survival is left. And every pass ends when it is asked to. Tests that hang have failed.
 
 #include "core/stop_condition.h"
-#include "render/integrators/onward.h"
+#include "render/integrators/russian_roulette.h"
 #include "render/integrators/path_integrator.h"
 #include "render/render_testing.h"
 
@@ -113,8 +113,8 @@ TEST(Termination, BoundsSurvivalWhateverTheSettingsSay) {
       path.rr = rr;
       path.rr_depth = rr_depth;
       path.rr_probability = 1;
-      for (int depth : {64, 100, 100000}) EXPECT_LT(Roulette::at(path, depth).most, 1);
-      EXPECT_EQ(Roulette::at(path, 63).most, 1);
+      for (int depth : {64, 100, 100000}) EXPECT_LT(Roulette::at(path, depth).max_survival, 1);
+      EXPECT_EQ(Roulette::at(path, 63).max_survival, 1);
     }
 }
 

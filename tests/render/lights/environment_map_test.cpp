@@ -196,22 +196,22 @@ TEST(EnvironmentMap, MoreTexelsThanCells) { // 4099 texels share 2048 cells
   }
 }
 
-void expect_density(const MappingCase& m, const EnvironmentMap& map, EnvironmentAim aim) {
+void expect_density(const MappingCase& m, const EnvironmentMap& map, EnvironmentDensity of) {
   SCOPED_TRACE(m.name);
   int unlike = 0;
   auto draw = [&](std::size_t i) -> std::optional<vec3> {
     std::uint64_t h = hash_combine(fresh_seed(), i);
     auto s = map.sample(
         {to_unit_float(static_cast<std::uint32_t>(h >> 32)), to_unit_float(static_cast<std::uint32_t>(h))},
-        aim);
+        of);
     if (!s) return std::nullopt;
-    auto seen = map.look(s->direction, aim); // at a texel's edge, rounding may look into the next
+    auto seen = map.lookup(s->direction, of); // at a texel's edge, rounding may look into the next
     unlike += std::abs(seen.pdf - s->pdf) > 0.01f * s->pdf;
     if (!(seen.pdf > 0)) return std::nullopt; // or into nothing
     return s->direction;
   };
   auto result = test_directions(SphereBins({0, 0, 1}, 2, 24, 36), 60000, draw,
-                                [&](vec3 w) { return static_cast<double>(map.pdf(w, aim)); });
+                                [&](vec3 w) { return static_cast<double>(map.pdf(w, of)); });
   EXPECT_LT(unlike, 60);
   EXPECT_NEAR(result.pdf_integral, 1, m.mapping == angular ? 0.05 : 2e-3); // its corners show nothing
   EXPECT_GT(result.chi_square.p_value, sidak_threshold(20)) << seed_note();
@@ -219,10 +219,10 @@ void expect_density(const MappingCase& m, const EnvironmentMap& map, Environment
 
 TEST(EnvironmentMapStatistical, SamplesFollowTheDensity) {
   for (const MappingCase& m : kCases)
-    for (EnvironmentAim aim : {EnvironmentAim::all, EnvironmentAim::bright}) {
-      expect_density(m, {picture(m, [](vec3 d) { return vec3(smooth(d)); }), m.mapping}, aim);
+    for (EnvironmentDensity of : {EnvironmentDensity::full, EnvironmentDensity::compensated}) {
+      expect_density(m, {picture(m, [](vec3 d) { return vec3(smooth(d)); }), m.mapping}, of);
       auto lamps = [](vec3 d) { return vec3(d.x > 0.8f ? 20.0f : (d.y < -0.6f ? 0.0f : 1.0f)); };
-      expect_density(m, {picture(m, lamps), m.mapping}, aim);
+      expect_density(m, {picture(m, lamps), m.mapping}, of);
     }
 }
 
@@ -232,13 +232,13 @@ TEST(EnvironmentMap, WhatIsDarkerThanTheMeanIsLeftToChance) {
   EnvironmentMap map(picture(m, sky), m.mapping);
   const vec3 sun(0, 1, 0), blue = glm::normalize(vec3(1, 0.3f, 0));
   EXPECT_GT(map.pdf(blue), 0);
-  EXPECT_EQ(map.pdf(blue, EnvironmentAim::bright), 0);
-  EXPECT_GT(map.pdf(sun, EnvironmentAim::bright), 1.3f * map.pdf(sun));
-  EXPECT_EQ(map.look(blue, EnvironmentAim::bright).radiance, map.radiance(blue));
-  EXPECT_LT(map.total_luminance(EnvironmentAim::bright), map.total_luminance());
+  EXPECT_EQ(map.pdf(blue, EnvironmentDensity::compensated), 0);
+  EXPECT_GT(map.pdf(sun, EnvironmentDensity::compensated), 1.3f * map.pdf(sun));
+  EXPECT_EQ(map.lookup(blue, EnvironmentDensity::compensated).radiance, map.radiance(blue));
+  EXPECT_LT(map.total_luminance(EnvironmentDensity::compensated), map.total_luminance());
   // Where all is alike there is nothing to leave out.
   EnvironmentMap even(picture(m, [](vec3) { return vec3(3); }), m.mapping);
-  EXPECT_EQ(even.pdf(blue, EnvironmentAim::bright), even.pdf(blue));
+  EXPECT_EQ(even.pdf(blue, EnvironmentDensity::compensated), even.pdf(blue));
   EXPECT_GT(even.pdf(blue), 0);
 }
 
@@ -332,9 +332,9 @@ TEST(EnvironmentRender, UnderASunAllStrategiesMeanTheSame) {
     return vec3(glm::dot(d, glm::normalize(vec3(1, 2, 0.5f))) > 0.95f ? 40.0f : 1.0f);
   };
   LightDesc light = environment(picture(finer(kCases[0], 4), sky), latlong);
-  RunningStatistics aimed = plate(light, LightSampling::nee, 1024, 201);
+  RunningStatistics nee = plate(light, LightSampling::nee, 1024, 201);
   for (LightSampling how : {LightSampling::mis, LightSampling::bsdf})
-    EXPECT_GT(z_test(plate(light, how, 1024, 202 + static_cast<std::uint64_t>(how)), aimed),
+    EXPECT_GT(z_test(plate(light, how, 1024, 202 + static_cast<std::uint64_t>(how)), nee),
               sidak_threshold(2))
         << seed_note();
 }

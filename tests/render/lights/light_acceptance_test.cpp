@@ -1,4 +1,4 @@
-// One predicate, LightReference::accepts, says where light may come from: the choice of a light, the sample
+// One predicate, LightSamplingContext::accepts, says where light may come from: the choice of a light, the sample
 // and the density that MIS is told must agree about it, also for points that transmit.
 
 #include "render/integrators/direct_light.h"
@@ -45,7 +45,7 @@ TEST(LightAcceptanceStatistical, WhatIsSampledIsWhatMisIsTold) {
     for (bool transmits : {false, true}) {
       SCOPED_TRACE(fmt::format("{}, transmits {}", c.name, transmits));
       const auto scene = RenderScene::build(c.scene.document);
-      LightReference ref;
+      LightSamplingContext ref;
       ref.normal = {0, 1, 0};
       ref.transmits = transmits;
       // By sampling: the chance of a sample that is accepted and seen, and that of one from behind.
@@ -69,15 +69,15 @@ TEST(LightAcceptanceStatistical, WhatIsSampledIsWhatMisIsTold) {
         const Ray ray{ref.position, 0, d, kInfinity};
         double density = 0;
         if (const auto hit = scene->geometry().accel().intersect(ray)) {
-          const Surface surface = scene->geometry().surface(ray, *hit);
+          const SurfaceInteraction surface = scene->geometry().surface(ray, *hit);
           const std::uint32_t light = scene->light_of(surface.emitter);
           ASSERT_NE(light, kNoLight);
           density = static_cast<double>(
-              aimed_pdf(*scene, ref, light, light_pdf(scene->lights()[light], ref, surface.position, d), d));
+              light_sampling_pdf(*scene, ref, light, light_pdf(scene->lights()[light], ref, surface.position, d), d));
         } else {
           for (std::uint32_t light : scene->infinite_lights())
             density += static_cast<double>(
-                aimed_pdf(*scene, ref, light, light_pdf(scene->lights()[light], ref, {}, d), d));
+                light_sampling_pdf(*scene, ref, light, light_pdf(scene->lights()[light], ref, {}, d), d));
         }
         const double value = density * 4 * std::numbers::pi;
         told[0].add(d.y >= 0 ? value : 0);

@@ -62,16 +62,16 @@ std::optional<dvec3> meet(const SphereLight& l, dvec3 o,
 template <class L>
 void expect_density(const L& light, vec3 reference, vec3 towards, double width, bool shining = true) {
   SCOPED_TRACE(testing::Message() << "from " << reference.x << " " << reference.y << " " << reference.z);
-  LightReference ref{reference, glm::normalize(towards - reference)};
+  LightSamplingContext ctx{reference, glm::normalize(towards - reference)};
   constexpr std::size_t kCount = 40000;
   int wrong_radiance = 0, wrong_pdf = 0, off_light = 0;
   auto draw = [&](std::size_t i) -> std::optional<vec3> {
     std::uint64_t h = hash_combine(fresh_seed(), i);
-    auto s = light.sample(ref, {to_unit_float(static_cast<std::uint32_t>(h >> 32)),
+    auto s = light.sample(ctx, {to_unit_float(static_cast<std::uint32_t>(h >> 32)),
                                 to_unit_float(static_cast<std::uint32_t>(h))});
     if (!s) return std::nullopt;
     wrong_radiance += s->radiance != light.emission || s->delta || s->infinite;
-    float pdf = light.pdf(ref, s->point, s->direction);
+    float pdf = light.pdf(ctx, s->point, s->direction);
     wrong_pdf += !(std::abs(pdf - s->pdf) <= 2e-3f * s->pdf);
     // The point lies on the light to within its error bounds (and some digits of the test's own).
     vec3 along = s->point - reference;
@@ -80,10 +80,10 @@ void expect_density(const L& light, vec3 reference, vec3 towards, double width, 
   };
   auto pdf = [&](vec3 w) {
     auto p = meet(light, dvec3(reference), glm::normalize(dvec3(w)));
-    return p ? static_cast<double>(light.pdf(ref, vec3(*p), w)) : 0.0;
+    return p ? static_cast<double>(light.pdf(ctx, vec3(*p), w)) : 0.0;
   };
   // Small bins, for the quadrature may overlook a light's corner that reaches a little into a bin.
-  DirectionTest result = test_directions(SphereBins(ref.normal, width, 32, 64), kCount, draw, pdf);
+  DirectionTest result = test_directions(SphereBins(ctx.normal, width, 32, 64), kCount, draw, pdf);
   EXPECT_EQ(wrong_radiance, 0);
   EXPECT_EQ(wrong_pdf, 0);
   EXPECT_EQ(off_light, 0);
@@ -123,17 +123,17 @@ TEST(Light, ManySamplesAtOnceAreTheSameToTheBit) {
   int seen = 0;
   for (int repeat = 0; repeat < 10; ++repeat) {
     const std::size_t count = repeat == 0 ? kLaneCount : 33;
-    std::vector<LightReference> references(count);
+    std::vector<LightSamplingContext> contexts(count);
     std::vector<LightQuery> queries;
     for (std::uint32_t k = 0; k < count; ++k) {
-      references[k].position = {place(random), place(random), place(random)};
+      contexts[k].position = {place(random), place(random), place(random)};
       const auto lane = static_cast<std::uint32_t>(count) - 1 - k;
-      queries.push_back({&lights[k % std::size(lights)], &references[k], {unit(random), unit(random)}, lane});
+      queries.push_back({&lights[k % std::size(lights)], &contexts[k], {unit(random), unit(random)}, lane});
     }
     LightSampleLanes samples{};
     sample_lights(queries, samples);
     for (const LightQuery& query : queries) {
-      auto one = sample_light(*query.light, *query.reference, query.u);
+      auto one = sample_light(*query.light, *query.context, query.u);
       ASSERT_EQ(samples.pdf[query.lane], one ? one->pdf : 0);
       if (!one) continue;
       ++seen;
@@ -180,32 +180,32 @@ TEST(LightStatistical, Sphere) {
 
 TEST(LightStatistical, ConstantIsTheCosineHemisphere) {
   ConstantLight light{{1, 2, 3}};
-  LightReference ref{{5, 5, 5}, glm::normalize(vec3(1, 2, -1))};
+  LightSamplingContext ctx{{5, 5, 5}, glm::normalize(vec3(1, 2, -1))};
   auto draw = [&](std::size_t i) -> std::optional<vec3> {
     std::uint64_t h = hash_combine(fresh_seed(), i);
-    auto s = light.sample(ref, {to_unit_float(static_cast<std::uint32_t>(h >> 32)),
+    auto s = light.sample(ctx, {to_unit_float(static_cast<std::uint32_t>(h >> 32)),
                                 to_unit_float(static_cast<std::uint32_t>(h))});
     if (!s) return std::nullopt;
     EXPECT_TRUE(s->infinite && !s->delta && s->radiance == vec3(1, 2, 3));
-    EXPECT_EQ(s->pdf, light.pdf(ref, {}, s->direction));
+    EXPECT_EQ(s->pdf, light.pdf(ctx, {}, s->direction));
     return s->direction;
   };
-  auto result = test_directions(SphereBins(ref.normal, 1), 100000, draw,
-                                [&](vec3 w) { return static_cast<double>(light.pdf(ref, {}, w)); });
+  auto result = test_directions(SphereBins(ctx.normal, 1), 100000, draw,
+                                [&](vec3 w) { return static_cast<double>(light.pdf(ctx, {}, w)); });
   EXPECT_NEAR(result.pdf_integral, 1, 1e-4);
   EXPECT_GT(result.chi_square.p_value, kFalseAlarm) << seed_note();
 }
 
 TEST(Light, DeltaLights) {
-  LightReference ref{{1, 0, 0}, {0, 1, 0}};
-  auto s = PointLight{{1, 2, 0}, {8, 4, 2}}.sample(ref, {});
+  LightSamplingContext ctx{{1, 0, 0}, {0, 1, 0}};
+  auto s = PointLight{{1, 2, 0}, {8, 4, 2}}.sample(ctx, {});
   ASSERT_TRUE(s);
   EXPECT_TRUE(s->delta && !s->infinite);
   EXPECT_EQ(s->direction, vec3(0, 1, 0));
   EXPECT_EQ(s->radiance, vec3(2, 1, 0.5f));
   EXPECT_EQ(s->pdf, 1);
-  EXPECT_FALSE((PointLight{{1, 0, 0}, vec3(1)}.sample(ref, {}))); // on the reference itself
-  s = DirectionalLight{{0, -1, 0}, {8, 4, 2}}.sample(ref, {});
+  EXPECT_FALSE((PointLight{{1, 0, 0}, vec3(1)}.sample(ctx, {}))); // on the reference itself
+  s = DirectionalLight{{0, -1, 0}, {8, 4, 2}}.sample(ctx, {});
   ASSERT_TRUE(s);
   EXPECT_TRUE(s->delta && s->infinite);
   EXPECT_EQ(s->direction, vec3(0, 1, 0));
@@ -215,8 +215,8 @@ TEST(Light, DeltaLights) {
 TEST(Light, SpotFallsOffBetweenBeamAndCutoff) {
   SpotLight spot{{0, 4, 0}, {0, -1, 0}, radians(20.0f), radians(40.0f), {8, 4, 2}};
   auto irradiance = [&](float angle) { // on a plane that faces the light, at the distance 4 / cos
-    LightReference ref{{4 * std::tan(radians(angle)), 0, 0}, {0, 1, 0}};
-    auto s = spot.sample(ref, {});
+    LightSamplingContext ctx{{4 * std::tan(radians(angle)), 0, 0}, {0, 1, 0}};
+    auto s = spot.sample(ctx, {});
     if (s) {
       EXPECT_TRUE(s->delta && !s->infinite && s->pdf == 1);
       EXPECT_NEAR(s->direction.y, std::cos(radians(angle)), 1e-6f);
@@ -235,10 +235,10 @@ TEST(Light, SpotFallsOffBetweenBeamAndCutoff) {
 }
 
 TEST(Light, AttenuationReplacesTheInverseSquare) {
-  LightReference ref{{0, 0, 0}, {0, 1, 0}};
+  LightSamplingContext ctx{{0, 0, 0}, {0, 1, 0}};
   auto at = [&](vec3 attenuation) {
-    auto s = PointLight{{0, 3, 0}, vec3(18), attenuation}.sample(ref, {});
-    auto t = SpotLight{{0, 3, 0}, {0, -1, 0}, 1, 1, vec3(18), attenuation}.sample(ref, {});
+    auto s = PointLight{{0, 3, 0}, vec3(18), attenuation}.sample(ctx, {});
+    auto t = SpotLight{{0, 3, 0}, {0, -1, 0}, 1, 1, vec3(18), attenuation}.sample(ctx, {});
     EXPECT_EQ(s->radiance, t->radiance);
     return s->radiance.x;
   };

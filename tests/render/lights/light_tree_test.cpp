@@ -1,5 +1,6 @@
 // Choosing among lights by what they may contribute.
 
+#include "bsdf/bsdf.h"
 #include "render/lights/light_selection.h"
 #include "render/quadrants.h"
 
@@ -29,8 +30,8 @@ private:
   std::mt19937_64 engine_;
 };
 
-/// Lights of every kind with bounds, some in heaps, and if `apart` some of those without.
-std::vector<Light> random_lights(std::size_t count, bool apart, Random& random) {
+/// Lights of every kind with bounds, some in heaps, and if `unbounded` some of those without.
+std::vector<Light> random_lights(std::size_t count, bool unbounded, Random& random) {
   std::vector<Light> lights;
   vec3 heap = random.point(4);
   while (lights.size() < count) {
@@ -62,7 +63,7 @@ std::vector<Light> random_lights(std::size_t count, bool apart, Random& random) 
     }
     }
   }
-  if (apart) {
+  if (unbounded) {
     lights.emplace_back(ConstantLight{vec3(0.3f)});
     lights.emplace_back(DirectionalLight{random.direction(), vec3(1)});
     lights.emplace_back(PointLight{random.point(3), vec3(2), {1, 0.5f, 0}});
@@ -76,24 +77,24 @@ LightSelection select_all(const std::vector<Light>& lights, LightChoiceBy how = 
   return {lights, all, how, 5};
 }
 
-LightReference random_reference(Random& random, const std::vector<Light>& lights) {
-  LightReference ref{random.point(6), random.direction()};
-  ref.also_by_chance = random.coin();
+LightSamplingContext random_context(Random& random, const std::vector<Light>& lights) {
+  LightSamplingContext ctx{random.point(6), random.direction()};
+  ctx.mis_with_bsdf = random.coin();
   if (random.coin()) {
-    ref.gloss = {random.coin() ? 0.0f : random(), random(0.1f, 1000), random(0, 1000)};
-    ref.mirrored = random.direction();
+    ctx.lobe = {random.coin() ? 0.0f : random(), random(0.1f, 1000), random(0, 1000)};
+    ctx.lobe_axis = random.direction();
   }
   if (random.coin()) // right beside a light, within its bounds or heap
     if (auto bounds =
             light_bounds(lights[static_cast<std::size_t>(random() * static_cast<float>(lights.size()))]))
-      ref.position = bounds->center + (bounds->radius + 0.01f) * random(0, 2) * random.direction();
-  return ref;
+      ctx.position = bounds->center + (bounds->radius + 0.01f) * random(0, 2) * random.direction();
+  return ctx;
 }
 
 /// The irradiance of a sample, not weighted by any density.
-float contribution(const Light& light, const LightReference& ref, vec2 u) {
-  auto s = sample_light(light, ref, u);
-  return s ? s->radiance.x * glm::dot(s->direction, ref.normal) : 0;
+float contribution(const Light& light, const LightSamplingContext& ctx, vec2 u) {
+  auto s = sample_light(light, ctx, u);
+  return s ? s->radiance.x * glm::dot(s->direction, ctx.normal) : 0;
 }
 
 TEST(LightTree, WhateverSendsLightIsChosen) {
@@ -103,12 +104,12 @@ TEST(LightTree, WhateverSendsLightIsChosen) {
     auto lights = random_lights(static_cast<std::size_t>(random(1, 200)), random.coin(), random);
     LightSelection selection = select_all(lights);
     for (int k = 0; k < 40; ++k) {
-      LightReference ref = random_reference(random, lights);
+      LightSamplingContext ctx = random_context(random, lights);
       for (std::uint32_t i = 0; i < lights.size(); ++i) {
         float u = random(), v = random();
-        if (!(contribution(lights[i], ref, {u, v}) > 0)) continue;
+        if (!(contribution(lights[i], ctx, {u, v}) > 0)) continue;
         ++lit;
-        ASSERT_GT(selection.pmf(ref, i), 0)
+        ASSERT_GT(selection.pmf(ctx, i), 0)
             << "light " << i << " of kind " << lights[i].index() << "; " << seed_note();
       }
     }
@@ -121,17 +122,17 @@ TEST(LightTree, ProbabilitiesSumToOneButForDrawsThatFail) {
   for (int round = 0; round < 200; ++round) {
     auto lights = random_lights(static_cast<std::size_t>(random(1, 300)), random.coin(), random);
     LightSelection selection = select_all(lights);
-    LightReference ref = random_reference(random, lights);
+    LightSamplingContext ctx = random_context(random, lights);
     double sum = 0, drawn = 0;
-    for (std::uint32_t i = 0; i < lights.size(); ++i) sum += static_cast<double>(selection.pmf(ref, i));
+    for (std::uint32_t i = 0; i < lights.size(); ++i) sum += static_cast<double>(selection.pmf(ctx, i));
     constexpr int kDraws = 4000;
     float before = -1;
     std::uint32_t last = 0xffffffffu;
     for (int k = 0; k < kDraws; ++k) { // an even comb: the measure of what is drawn
-      auto choice = selection.choose(ref, (static_cast<float>(k) + 0.5f) / kDraws);
+      auto choice = selection.choose(ctx, (static_cast<float>(k) + 0.5f) / kDraws);
       if (!choice) continue;
       drawn += 1.0 / kDraws;
-      ASSERT_NEAR(choice->pmf, selection.pmf(ref, choice->light), 1e-5f * choice->pmf) << seed_note();
+      ASSERT_NEAR(choice->pmf, selection.pmf(ctx, choice->light), 1e-5f * choice->pmf) << seed_note();
       ASSERT_TRUE(choice->u >= 0 && choice->u < 1);
       if (choice->light == last) { ASSERT_GT(choice->u, before) << "stretched, in order"; }
       last = choice->light, before = choice->u;
@@ -147,17 +148,17 @@ TEST(LightTreeStatistical, IsChosenAsOftenAsItsProbabilitySays) {
   for (int round = 0; round < kRounds; ++round) {
     auto lights = random_lights(round < 4 ? 5 : 120, round % 2 == 0, random);
     LightSelection selection = select_all(lights);
-    LightReference ref = random_reference(random, lights);
+    LightSamplingContext ctx = random_context(random, lights);
     std::vector<double> observed(lights.size() + 1), expected(lights.size() + 1);
     double failing = 1;
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
-      double pmf = static_cast<double>(selection.pmf(ref, i));
+      double pmf = static_cast<double>(selection.pmf(ctx, i));
       failing -= pmf;
       expected[i] = kDraws * pmf;
     }
     expected.back() = kDraws * std::max(failing, 0.0);
     for (int k = 0; k < kDraws; ++k) {
-      auto choice = selection.choose(ref, random());
+      auto choice = selection.choose(ctx, random());
       observed[choice ? choice->light : lights.size()] += 1;
     }
     EXPECT_GT(chi_square_test(observed, expected).p_value, sidak_threshold(kRounds)) << seed_note();
@@ -166,7 +167,7 @@ TEST(LightTreeStatistical, IsChosenAsOftenAsItsProbabilitySays) {
 
 TEST(LightTree, FewLightsThatAreSmallAreChosenByWhatTheySend) {
   // Far points and spheres, a facing disc, and the sun: the estimates are the irradiances themselves.
-  const LightReference ref{{0, 0, 0}, {0, 1, 0}};
+  const LightSamplingContext ctx{{0, 0, 0}, {0, 1, 0}};
   std::vector<Light> lights{PointLight{{3, 4, 0}, vec3(5)},
                             SphereLight{{0, 20, 0}, 0.1f, vec3(300), false},
                             DiscLight{{-6, 8, 0}, glm::normalize(vec3(6, -8, 0)), 0.05f, vec3(900), false},
@@ -183,11 +184,11 @@ TEST(LightTree, FewLightsThatAreSmallAreChosenByWhatTheySend) {
   double sum = 0;
   for (double e : sent) sum += e;
   for (std::uint32_t i = 0; i < lights.size(); ++i)
-    EXPECT_NEAR(static_cast<double>(selection.pmf(ref, i)), sent[i] / sum, 0.01) << i;
+    EXPECT_NEAR(static_cast<double>(selection.pmf(ctx, i)), sent[i] / sum, 0.01) << i;
 }
 
-TEST(LightTree, AGlossyPointAsksTheLightThatItMirrors) {
-  LightReference ref{{0, 0, 0}, {0, 1, 0}};
+TEST(LightTree, AGlossyPointChoosesTheLightThatItMirrors) {
+  LightSamplingContext ctx{{0, 0, 0}, {0, 1, 0}};
   const vec3 wo = glm::normalize(vec3(-1, 1, 0)); // of the world; locally x, z, y
   const Bsdf bsdf = Ggx{vec3(0.9f), 0.4f};
   std::vector<Light> lights;
@@ -198,13 +199,13 @@ TEST(LightTree, AGlossyPointAsksTheLightThatItMirrors) {
     sent.push_back(static_cast<double>(
         luminance(bsdf_eval(bsdf, {wo.x, wo.z, wo.y}, {towards.x, towards.z, towards.y}))));
   }
-  ref.gloss = gloss_of(bsdf, {wo.x, wo.z, wo.y});
-  ref.mirrored = {-wo.x, wo.y, wo.z};
+  ctx.lobe = bsdf_lobe_proxy(bsdf, {wo.x, wo.z, wo.y});
+  ctx.lobe_axis = {-wo.x, wo.y, wo.z};
   LightSelection selection = select_all(lights);
   double sum = 0;
   for (double e : sent) sum += e;
   for (std::uint32_t i = 0; i < lights.size(); ++i)
-    EXPECT_NEAR(static_cast<double>(selection.pmf(ref, i)), sent[i] / sum, 0.06) << i;
+    EXPECT_NEAR(static_cast<double>(selection.pmf(ctx, i)), sent[i] / sum, 0.06) << i;
 }
 
 TEST(LightTree, OneLightIsCertain) {
@@ -217,8 +218,8 @@ TEST(LightTree, OneLightIsCertain) {
   EXPECT_TRUE(select_all({PointLight{{0, 1, 0}, vec3(0)}}).empty());
 }
 
-TEST(LightTree, TooManyApartAreChosenByPower) {
-  std::vector<Light> lights(LightTree::kMostApart + 1, PointLight{{0, 1, 0}, vec3(1), {1, 0, 0}});
+TEST(LightTree, TooManyUnboundedLightsAreChosenByPower) {
+  std::vector<Light> lights(LightTree::kMaxUnboundedLights + 1, PointLight{{0, 1, 0}, vec3(1), {1, 0, 0}});
   LightSelection selection = select_all(lights);
   EXPECT_NEAR(selection.pmf({{0, 0, 0}, {0, 1, 0}}, 3), 1.0f / static_cast<float>(lights.size()), 1e-6f);
 }

@@ -12,11 +12,11 @@ namespace {
 using namespace candela;
 using namespace candela::test;
 
-Surface hit_from(const Geometry& g, vec3 origin, vec3 direction) {
+SurfaceInteraction hit_from(const Geometry& g, vec3 origin, vec3 direction) {
   Ray ray{origin, 0, glm::normalize(direction), kInfinity};
   auto hit = g.accel().intersect(ray);
   EXPECT_TRUE(hit);
-  return hit ? g.surface(ray, *hit) : Surface{};
+  return hit ? g.surface(ray, *hit) : SurfaceInteraction{};
 }
 
 vec2 uv_from(const Geometry& g, vec3 origin, vec3 direction) {
@@ -40,7 +40,7 @@ TEST(Geometry, FlatSurfacesHaveUnitNormalsUnderAnyTransform) {
       auto g = Geometry::build(s.document.scene.instances);
       EXPECT_EQ(g->placed().size(), copies == 1 ? 0u : 2u);
       for (vec3 d : {vec3(1, 0.2f, 0.1f), vec3(0.3f, 1, 0.2f), vec3(0.1f, 0.2f, -1)}) {
-        Surface p = hit_from(*g, 5.0f * d, -d);
+        SurfaceInteraction p = hit_from(*g, 5.0f * d, -d);
         EXPECT_NEAR(glm::length(p.geometric_normal), 1, 1e-5f);
         EXPECT_NEAR(glm::length(p.shading_normal), 1, 1e-5f);
         EXPECT_GT(glm::dot(p.geometric_normal, p.position), 0) << "outside stays outside though mirrored";
@@ -59,7 +59,7 @@ TEST(Geometry, ShapesLieWhereTheirTransformSays) {
   s.disc({10, 0, 0}, 3, {1, 0, 0}, {0, 1, 0}, b);
   s.rectangle({20, 0, 0}, {2, 0, 0}, {0, 1, 0}, c);
   auto g = Geometry::build(s.document.scene.instances);
-  Surface p = hit_from(*g, {0, 0, 9}, {0, 0, -1});
+  SurfaceInteraction p = hit_from(*g, {0, 0, 9}, {0, 0, -1});
   EXPECT_NEAR(p.position.z, 2, 1e-6f);
   EXPECT_EQ(p.geometric_normal, vec3(0, 0, 1));
   EXPECT_EQ(p.material, 0u);
@@ -98,7 +98,7 @@ TEST(Geometry, AFastBuildTakesOverWhatIsKnownAndMeetsTheSame) {
     const float phi = 0.1f * static_cast<float>(i);
     const vec3 to(i % 2 == 0 ? 0.0f : 5.0f, 0.25f, 0),
         from = to + vec3(8 * std::sin(phi), 3, 8 * std::cos(phi));
-    const Surface a = hit_from(*moved, from, to - from), b = hit_from(*baked, from, to - from);
+    const SurfaceInteraction a = hit_from(*moved, from, to - from), b = hit_from(*baked, from, to - from);
     EXPECT_LT(glm::length(a.position - b.position), 1e-4f) << i;
     EXPECT_GT(glm::dot(a.shading_normal, b.shading_normal), 0.9999f) << i;
   }
@@ -135,7 +135,7 @@ TEST(Geometry, ARayLeavingAWallDoesNotMeetItAgain) {
         return to_unit_float(static_cast<std::uint32_t>(hash_combine(fresh_seed() + k, i)));
       };
       vec3 p = offset + vec3(38 * u(1) - 19, 0, 38 * u(2) - 19);
-      Surface surface = hit_from(*g, p + vec3(u(3), 2, u(4)), vec3(-u(3), -2, -u(4)));
+      SurfaceInteraction surface = hit_from(*g, p + vec3(u(3), 2, u(4)), vec3(-u(3), -2, -u(4)));
       vec3 w = sample_uniform_hemisphere({u(5), u(6)});
       w = {w.x, w.z, w.y};
       if (!(w.y > 1e-4f)) continue;

@@ -211,7 +211,7 @@ TEST(ShapeMeshRender, EmittersShineByTheirArea) {
             static_cast<std::uint32_t>(hash_combine(h, static_cast<std::uint64_t>(k)) >> 32));
       };
       vec3 out = sample_uniform_sphere({u(0), u(1)});
-      LightReference ref{static_cast<float>(kRadius) * out, -out};
+      LightSamplingContext ref{static_cast<float>(kRadius) * out, -out};
       auto choice = scene->all_lights().choose(ref, u(2));
       std::optional<LightSample> light;
       if (choice) light = sample_light(scene->lights()[choice->light], ref, {u(3), u(4)});

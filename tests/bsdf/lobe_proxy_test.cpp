@@ -1,6 +1,6 @@
-// The rough idea of a BSDF that lights are chosen by.
+// The stand-in for a BSDF by which lights are chosen.
 
-#include "bsdf/gloss.h"
+#include "bsdf/bsdf.h"
 #include "support/seed.h"
 
 #include <gtest/gtest.h>
@@ -10,14 +10,14 @@
 namespace candela::test {
 namespace {
 
-float estimate(const Gloss& g, vec3 wo, vec3 wi) {
+float estimate(const LobeProxy& g, vec3 wo, vec3 wi) {
   float off = 1 + g.sharpness * (1 - glm::dot(reflect_about_normal(wo), wi));
   return g.diffuse * wi.z + g.peak / sqr(off);
 }
 
 vec3 at_angle(float degrees) { return {std::sin(radians(degrees)), 0, std::cos(radians(degrees))}; }
 
-TEST(Gloss, LobesAreAsHighAndAsWideAsTheModels) {
+TEST(LobeProxy, LobesAreAsHighAndAsWideAsTheModels) {
   for (float roughness : {0.1f, 0.3f, 0.5f}) {
     const Bsdf ggx = Ggx{vec3(0.8f), roughness},
                phong = Phong{vec3(0.2f), vec3(0.5f), 2 / sqr(sqr(roughness))};
@@ -27,7 +27,7 @@ TEST(Gloss, LobesAreAsHighAndAsWideAsTheModels) {
       for (float off : {0.0f, 0.5f, 1.0f})
         for (const Bsdf& bsdf : {ggx, phong}) {
           vec3 wi = at_angle(angle + off * width);
-          float real = luminance(bsdf_eval(bsdf, wo, wi)), guess = estimate(gloss_of(bsdf, wo), wo, wi);
+          float real = luminance(bsdf_eval(bsdf, wo, wi)), guess = estimate(bsdf_lobe_proxy(bsdf, wo), wo, wi);
           float ratio = guess / real;
           EXPECT_GT(ratio, 0.6f) << bsdf.index() << ' ' << roughness << ' ' << angle << ' ' << off;
           EXPECT_LT(ratio, 2.5f) << bsdf.index() << ' ' << roughness << ' ' << angle << ' ' << off;
@@ -36,8 +36,8 @@ TEST(Gloss, LobesAreAsHighAndAsWideAsTheModels) {
   }
 }
 
-TEST(Gloss, AlbedoIsTheLobesIntegral) {
-  Gloss g = gloss_of(Phong{vec3(0), vec3(0.5f), 60}, at_angle(0));
+TEST(LobeProxy, AlbedoIsTheLobesIntegral) {
+  LobeProxy g = Phong{vec3(0), vec3(0.5f), 60}.lobe_proxy(at_angle(0));
   constexpr int kSteps = 100000;
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) { // over the cosine with the axis, in the hemisphere
@@ -47,7 +47,7 @@ TEST(Gloss, AlbedoIsTheLobesIntegral) {
   EXPECT_NEAR(static_cast<double>(g.lobe_albedo()), sum, 1e-4 * sum);
 }
 
-TEST(Gloss, NoDirectionThatReflectsIsGivenUp) {
+TEST(LobeProxy, IsNotZeroWhereTheModelIsNot) {
   std::mt19937 random(static_cast<std::mt19937::result_type>(fresh_seed()));
   std::uniform_real_distribution<float> u;
   auto upwards = [&] { // one by one: arguments have no order
@@ -59,7 +59,7 @@ TEST(Gloss, NoDirectionThatReflectsIsGivenUp) {
     for (const Bsdf& bsdf : {Bsdf(Ggx{vec3(0.8f), 0.2f}), Bsdf(Ggx{vec3(0.8f), 0.8f}),
                              Bsdf(Phong{vec3(0.1f), vec3(0.5f), 30}), Bsdf(Diffuse{vec3(0.5f)})})
       if (float real = luminance(bsdf_eval(bsdf, wo, wi)); real > 0) {
-        ASSERT_GT(estimate(gloss_of(bsdf, wo), wo, wi), 0.01f * real)
+        ASSERT_GT(estimate(bsdf_lobe_proxy(bsdf, wo), wo, wi), 0.01f * real)
             << bsdf.index() << ' ' << wo.z << ' ' << wi.z << "; " << seed_note();
       }
   }

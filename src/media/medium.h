@@ -1,0 +1,35 @@
+#pragma once
+// What fills the space between surfaces, as one value.
+
+#include "core/variant.h"
+#include "media/absorbing_medium.h"
+
+namespace candela {
+
+/// - transmittance: the share of light that passes the ray's first `distance` (scene units; may be infinite;
+///   the ray's direction is of any length), or an unbiased estimate of it. The sampler is for media that
+///   estimate: they must not draw what is drawn elsewhere at the same bounce.
+template <class M>
+concept MediumModel = requires(const M& m, const Ray& ray, float distance, const Sampler& sampler) {
+  { m.transmittance(ray, distance, sampler) } -> std::same_as<Spectrum>;
+};
+
+/// All media: a new one is a file of its own, and a name here.
+using Medium = std::variant<AbsorbingMedium>;
+
+namespace detail {
+
+template <class... Models>
+constexpr bool are_medium_models(const std::variant<Models...>*) {
+  return (MediumModel<Models> && ...);
+}
+static_assert(are_medium_models(static_cast<const Medium*>(nullptr)));
+
+} // namespace detail
+
+/// As MediumModel's member of the same name.
+inline Spectrum transmittance(const Ray& ray, float distance, const Medium& medium, const Sampler& sampler) {
+  return visit_variant([&](const auto& m) { return m.transmittance(ray, distance, sampler); }, medium);
+}
+
+} // namespace candela
