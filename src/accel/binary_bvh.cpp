@@ -346,7 +346,7 @@ BinaryBvh build_binary_bvh(const AccelInput& input, HugeVector<BuildRef> refs, c
                            bool mixed, BuildQuality quality, Progress* progress) {
   BinaryBvh bvh;
   bvh.count = static_cast<std::uint32_t>(refs.size());
-  if (quality == BuildQuality::high && !input.triangles.empty()) {
+  if (quality == BuildQuality::high && can_cut(input)) {
     refs.resize(with_doubles(refs.size()));
     bvh.rooms.resize(refs.size());
   }

@@ -5,7 +5,7 @@
 // frustum around them (the entry point search of Reshetov, Soupikov and Hurley 2005, "Multi-Level Ray Tracing
 // Algorithm", ACM TOG 24(3); here with up to kMaxEntryPoints of them). Where that ends at leaves and the
 // frustum meets but few of their triangles, eight rays at a time are tested with each. Else every ray goes on
-// alone from the entry points, so that rays that part company lose nothing. What a ray meets is the same in
+// alone from the entry points, so that rays that diverge lose nothing. What a ray meets is the same in
 // any way: see Packet.
 //
 // Nanoseconds of a ray alone and in a packet, 512 x 512 pixels, at 1 and at 16 samples a pixel (a busy
@@ -66,7 +66,7 @@ bool descend(const AccelTree& tree, const PacketFrustum<F>& frustum, Depth depth
       ++i;
       continue;
     }
-    const WideNode& node = tree.nodes[ref.index()];
+    const WideNode& node = tree.nodes[ref.node()];
     F t_enter;
     const simd::LaneMask met = frustum.intersect(node, t_enter);
     bool leaf = false;
@@ -103,8 +103,8 @@ public:
     count_ = 0;
     for (std::size_t i = 0; i < points.count; ++i) {
       const ChildRef leaf = points.at[i].value;
-      if (leaf.kind() != LeafKind::triangles) return false;
-      const TrianglePack& pack = tree.triangles[leaf.index()];
+      if (leaf.kind() != PrimitiveKind::triangle) return false;
+      const TrianglePack& pack = tree.triangles()[leaf.pack()];
       const simd::LaneMask met = frustum.intersect(pack);
       if (count_ + static_cast<std::size_t>(std::popcount(met)) > kMaxTriangles) return false;
       simd::for_each_lane(met, [&](int lane) {

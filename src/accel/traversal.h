@@ -69,8 +69,8 @@ struct NoCost {
 template <class F, bool any_hit, class Cost>
 bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost);
 
-/// Spheres, discs and instances; out of line, for the registers belong to triangles. As meet_triangles, but
-/// t_max is the caller's to lower.
+/// A leaf of any kind but triangles; out of line, for the registers belong to triangles. As meet_triangles,
+/// but t_max is the caller's to lower.
 template <class F, bool any_hit, class Cost>
 [[gnu::noinline]] bool meet_other_leaf(const AccelTree& tree, const Ray& ray, ChildRef leaf, float t_min,
                                        float t_max, Hit& hit, Cost& cost) {
@@ -81,38 +81,30 @@ template <class F, bool any_hit, class Cost>
     hit = found;
     return true;
   };
-  auto accept_lane = [&](const std::array<std::uint32_t, kWidth>& primitive, PrimitiveKind kind,
-                         const LaneHits& lanes) {
-    if (any_hit || !lanes.lanes) return lanes.lanes != 0;
-    const std::size_t lane = closest_lane(lanes.lanes, lanes.t, primitive);
-    return accept({lanes.t[lane], 0, 0, primitive[lane], kNoInstance, kind});
-  };
-  LaneHits lanes;
-  switch (leaf.kind()) {
-  case LeafKind::triangles: break;
-  case LeafKind::spheres: {
-    const SpherePack& pack = tree.spheres[leaf.index()];
-    intersect_spheres<F>(pack, ray, t_min, t_max, lanes);
-    return accept_lane(pack.primitive, PrimitiveKind::sphere, lanes);
-  }
-  case LeafKind::discs: {
-    const DiscPack& pack = tree.discs[leaf.index()];
-    intersect_discs<F>(pack, ray, t_min, t_max, lanes);
-    return accept_lane(pack.primitive, PrimitiveKind::disc, lanes);
-  }
-  case LeafKind::instance: {
-    // In the object's space t stays the same, for the direction is not renormalised.
-    const InstanceRecord& instance = tree.instances[leaf.index()];
-    const auto& m = instance.object_from_world;
-    Ray local{m * vec4(ray.origin, 1), ray.t_min, m * vec4(ray.direction, 0), t_max};
-    Hit found;
-    if (!trace<F, any_hit>(*instance.object, local, found, cost)) return false;
-    if constexpr (any_hit) return true;
-    found.instance = instance.index;
-    return accept(found);
-  }
-  }
-  return false;
+  return PrimitiveKinds::visit(leaf.kind(), [&]<class Kind>() {
+    if constexpr (std::is_same_v<Kind, primitives::Triangles>) {
+      return false;
+    } else if constexpr (std::is_same_v<Kind, primitives::Instances>) {
+      // In the object's space t stays the same, for the direction is not renormalised.
+      const InstanceRecord& instance = tree.packs<Kind>()[leaf.pack()];
+      const auto& m = instance.object_from_world;
+      Ray local{m * vec4(ray.origin, 1), ray.t_min, m * vec4(ray.direction, 0), t_max};
+      Hit found;
+      if (!trace<F, any_hit>(*instance.object, local, found, cost)) return false;
+      if constexpr (any_hit) return true;
+      found.instance = instance.index;
+      return accept(found);
+    } else {
+      const typename Kind::Pack& pack = tree.packs<Kind>()[leaf.pack()];
+      LaneHits lanes;
+      Kind::template intersect<F>(pack, ray, t_min, t_max, lanes);
+      if (any_hit || !lanes.lanes) return lanes.lanes != 0;
+      const std::size_t lane = closest_lane(lanes.lanes, lanes.t, pack.primitive);
+      const vec2 uv = Kind::parameters(pack, lane, ray, lanes.t[lane]);
+      return accept(
+          {lanes.t[lane], uv.x, uv.y, pack.primitive[lane], kNoInstance, PrimitiveKinds::kind_of<Kind>});
+    }
+  });
 }
 
 /// As trace, for a ray that can meet nothing but these leaves; no boxes, no stack. `last` becomes the index
@@ -128,8 +120,8 @@ bool trace_leaves(const AccelTree& tree, std::span<const Waiting> leaves, const 
   NoCost free_of_charge;
   for (std::size_t i = leaves.size(); i-- > 0 && leaves[i].key <= t_max;) {
     const ChildRef leaf = leaves[i].value;
-    if (leaf.kind() == LeafKind::triangles) {
-      if (!meet_triangles<F, any_hit>(tree.triangles[leaf.index()], sheared, t_min, t_max, hit)) continue;
+    if (leaf.kind() == PrimitiveKind::triangle) {
+      if (!meet_triangles<F, any_hit>(tree.triangles()[leaf.pack()], sheared, t_min, t_max, hit)) continue;
     } else {
       if (!meet_other_leaf<F, any_hit>(tree, ray, leaf, t_min, t_max, hit, free_of_charge)) continue;
       if constexpr (!any_hit) t_max = hit.t;
@@ -152,8 +144,8 @@ template <class F, bool any_hit, class Cost>
   bool found = false;
   auto meet_leaf = [&](ChildRef leaf) __attribute__((always_inline)) {
     ++cost.packs;
-    if (leaf.kind() == LeafKind::triangles) [[likely]]
-      return meet_triangles<F, any_hit>(tree.triangles[leaf.index()], sheared, t_min, t_max, hit);
+    if (leaf.kind() == PrimitiveKind::triangle) [[likely]]
+      return meet_triangles<F, any_hit>(tree.triangles()[leaf.pack()], sheared, t_min, t_max, hit);
     if (!meet_other_leaf<F, any_hit>(tree, ray, leaf, t_min, t_max, hit, cost)) return false;
     if constexpr (!any_hit) t_max = hit.t;
     return true;
@@ -177,7 +169,7 @@ template <class F, bool any_hit, class Cost>
       }
     } else {
       ++cost.nodes;
-      const WideNode& node = nodes[current.index()];
+      const WideNode& node = nodes[current.node()];
       F t_enter;
       simd::LaneMask lanes = box_ray.intersect(node, t_min8, F(t_max), t_enter);
       if (lanes) {

@@ -39,7 +39,7 @@ glm::dvec3 point_on(const std::array<vec3, 3>& p, Random& random) {
 BuildRef ref_of(const TestScene& scene, std::uint32_t index) {
   Bounds3 b;
   for (vec3 p : corners(scene, index)) b.grow(p);
-  return BuildRef::make(b, index, LeafKind::triangles);
+  return BuildRef::make(b, index, PrimitiveKind::triangle);
 }
 
 bool holds(const BuildBox& box, glm::dvec3 p) {
