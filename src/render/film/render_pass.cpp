@@ -1,5 +1,6 @@
 #include "render/film/render_pass.h"
 
+#include "render/camera/camera_view.h"
 #include "render/camera/pixel_rays.h"
 #include "render/integrators/ao_integrator.h"
 #include "render/integrators/first_hit_view.h"
@@ -42,11 +43,13 @@ struct SampleIndex {
 /// Evaluates samples, many at a time; one per thread.
 class PixelSampler {
 public:
-  PixelSampler(const RenderScene& scene, const Document& document, const StopCondition& stop)
+  PixelSampler(const RenderScene& scene, const Document& document, const StopCondition& stop,
+               std::shared_ptr<const CameraModel> camera = nullptr)
       : stop_(stop), scene_(scene), settings_(document.settings), view_(accumulated_view(settings_.view)),
-        rays_(document), sampler_(PixelRays::sampler(settings_.sampler)),
+        camera_view_(document.scene.camera, document.settings.film.width, document.settings.film.height),
+        rays_(document, std::move(camera)), sampler_(PixelRays::sampler(settings_.sampler)),
         paths_(scene, path_settings(settings_)) {
-    if (scene.has_absorption()) camera_interiors_ = interiors_at(scene, rays_.camera().position());
+    if (scene.has_absorption()) camera_interiors_ = interiors_at(scene, camera_view_.position());
   }
 
   /// results[i] becomes what sample indices[i] adds to its pixel. False, and results of no use, where it was
@@ -70,20 +73,22 @@ public:
 private:
   void evaluate(std::span<const SampleIndex> indices, std::span<PixelSample> results, RayCounts& counts) {
     start(indices);
+    if (starts_.size() < indices.size()) // samples without a ray are black
+      std::fill_n(results.begin(), indices.size(), PixelSample{});
     if (!shows_light()) {
       view_first_hits(results, counts);
     } else if (follows_paths()) {
-      parts_.resize(indices.size());
+      parts_.resize(starts_.size());
       if (!paths_.trace(starts_, parts_, counts, stop_)) return;
-      for (std::size_t i = 0; i < indices.size(); ++i) show(parts_[i], results[i]);
+      for (std::size_t i = 0; i < starts_.size(); ++i) show(parts_[i], results[sample_of_[i]]);
     } else {
-      for (std::size_t i = 0; i < indices.size() && !stop_.asked(); ++i)
-        alone(starts_[i], results[i], counts);
+      for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
+        alone(starts_[i], results[sample_of_[i]], counts);
     }
-    for (std::size_t i = 0; i < indices.size(); ++i) { // as the pixel's filter weighs them
+    for (std::size_t i = 0; i < starts_.size(); ++i) { // as the pixel's filter and the camera weigh them
       if (weights_[i] == 1) continue;                  // always, for most filters
-      results[i].value *= weights_[i];
-      results[i].parts *= weights_[i];
+      results[sample_of_[i]].value *= weights_[i];
+      results[sample_of_[i]].parts *= weights_[i];
     }
   }
 
@@ -101,7 +106,7 @@ private:
     return settings_.integrator == Integrator::path || settings_.integrator == Integrator::direct;
   }
 
-  /// Makes the camera rays.
+  /// Makes the camera rays, of the samples that have one.
   void start(std::span<const SampleIndex> indices) {
     starts_.resize(indices.size(), {Ray(), sampler_});
     draws_.clear();
@@ -112,20 +117,28 @@ private:
     film_.resize(indices.size());
     lens_.assign(indices.size(), vec2(0));
     Sampler::get_2d(draws_, Dimension::film, film_);
-    if (rays_.camera().has_lens()) Sampler::get_2d(draws_, Dimension::lens, lens_);
+    if (rays_.uses_lens_sample()) Sampler::get_2d(draws_, Dimension::lens, lens_);
     weights_.resize(indices.size());
+    sample_of_.resize(indices.size());
+    std::size_t count = 0;
     for (std::size_t i = 0; i < indices.size(); ++i) {
-      weights_[i] = rays_.at(indices[i].pixel, film_[i], lens_[i], starts_[i].ray);
+      PathStart& start = starts_[count];
+      if (count != i) start.sampler = starts_[i].sampler;
+      const std::optional<float> weight = rays_.at(indices[i].pixel, film_[i], lens_[i], start.ray);
+      if (!weight) continue;
+      weights_[count] = *weight;
+      sample_of_[count++] = i;
       if (!scene_.has_absorption()) continue;
-      starts_[i].interiors = camera_interiors_;
-      move_between(scene_, rays_.camera().position(), starts_[i].ray.origin, starts_[i].interiors);
+      start.interiors = camera_interiors_;
+      move_between(scene_, camera_view_.position(), start.ray.origin, start.interiors);
     }
+    starts_.erase(starts_.begin() + static_cast<std::ptrdiff_t>(count), starts_.end());
   }
 
   void view_first_hits(std::span<PixelSample> results, RayCounts& counts) {
     if (view_ == View::bvh_cost) {
       for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
-        results[i] = {bvh_cost_value(scene_, starts_[i].ray, counts), {}};
+        results[sample_of_[i]] = {bvh_cost_value(scene_, starts_[i].ray, counts), {}};
       return;
     }
     camera_rays_.clear();
@@ -134,9 +147,9 @@ private:
     scene_.geometry().accel().intersect(camera_rays_, hits_);
     counts.closest += starts_.size();
     for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
-      results[i] = {first_hit_value(scene_, starts_[i].ray, hits_[i].t < kInfinity, hits_[i],
-                                    rays_.camera().forward(), view_, starts_[i].sampler, counts),
-                    {}};
+      results[sample_of_[i]] = {first_hit_value(scene_, starts_[i].ray, hits_[i].t < kInfinity, hits_[i],
+                                                camera_view_.forward(), view_, starts_[i].sampler, counts),
+                                {}};
   }
 
   /// Of an integrator that takes one sample after the other.
@@ -169,15 +182,18 @@ private:
   const RenderScene& scene_;
   const RenderSettings& settings_;
   View view_;
+  CameraView camera_view_;
   PixelRays rays_;
   Sampler sampler_; ///< of the document's kind
   PathTracer paths_;
   DirectLightOfOne direct_light_;
   Interiors camera_interiors_; ///< in scenes with absorption
   // Parallel to the samples in flight:
-  std::vector<PathStart> starts_;
   std::vector<Sampler::Draw> draws_;
   std::vector<vec2> film_, lens_;
+  // Parallel to those of them that have a ray:
+  std::vector<PathStart> starts_;
+  std::vector<std::size_t> sample_of_; ///< index into the samples
   std::vector<float> weights_;
   std::vector<PathSample> parts_;
   std::vector<const Ray*> camera_rays_;
@@ -187,11 +203,12 @@ private:
 /// The path segment at which a sample stops being finite: that of the shortest path that is not, found by
 /// tracing again. Once a sum is not finite it stays so, whatever is added: so the depth is doubled and then
 /// halved in between. 0 where there is none.
-int nonfinite_depth(const RenderScene& scene, const Document& document, const SampleIndex& index) {
+int nonfinite_depth(const RenderScene& scene, const Document& document,
+                    const std::shared_ptr<const CameraModel>& camera, const SampleIndex& index) {
   Document limited = document;
   auto is_finite_up_to = [&](int depth) {
     limited.settings.path.max_depth = depth;
-    return is_finite(PixelSampler(scene, limited, {}).sample(index).value);
+    return is_finite(PixelSampler(scene, limited, {}, camera).sample(index).value);
   };
   int finite = 0, last = 1;
   constexpr int kMost = 1 << 20;
@@ -226,6 +243,7 @@ struct PassJob {
   const SampleRange& range;
   Film& film;
   const std::array<Film*, 3>& components;
+  const std::shared_ptr<const CameraModel>& camera;
 };
 
 /// Collects samples until there are enough to be worth a batch, and adds what comes of them to the film in
@@ -273,7 +291,7 @@ private:
     ++result.nonfinite.count;
     if (result.nonfinite.records.size() < NonFiniteLog::kMaxRecords)
       result.nonfinite.records.push_back(
-          {index.pixel, index.sample, nonfinite_depth(job_.scene, job_.document, index)});
+          {index.pixel, index.sample, nonfinite_depth(job_.scene, job_.document, job_.camera, index)});
   }
 
   PixelSampler& sampler_;
@@ -355,11 +373,11 @@ PassResult render_pass(const RenderScene& scene, const Document& document, const
   int tiles = std::max(columns, 0) * std::max(rows, 0);
   std::vector<PassResult> results(static_cast<std::size_t>(tiles));
   int threads = options.threads > 0 ? options.threads : omp_get_num_procs();
-  const PassJob job{scene, document, range, film, options.components};
+  const PassJob job{scene, document, range, film, options.components, options.camera};
   bool stopped = false;
 #pragma omp parallel num_threads(threads) reduction(|| : stopped)
   {
-    PixelSampler sampler(scene, document, stop);
+    PixelSampler sampler(scene, document, stop, options.camera);
     SampleQueue queue(sampler, job);
 #pragma omp for schedule(dynamic, 1)
     for (int t = 0; t < tiles; ++t) {

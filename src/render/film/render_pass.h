@@ -2,6 +2,7 @@
 // One pass over the film: the unit of work of the session and of the command line.
 
 #include "core/stop_condition.h"
+#include "render/camera/camera_model.h"
 #include "render/film/film.h"
 #include "render/world/render_scene.h"
 
@@ -30,6 +31,8 @@ struct PassOptions {
   /// Films of the film's size and origin for the emitted, the direct and the indirect part of the same
   /// samples; null: none.
   std::array<Film*, 3> components{};
+  /// In place of the document's camera; null: that one.
+  std::shared_ptr<const CameraModel> camera = nullptr;
 };
 
 struct PassResult {
