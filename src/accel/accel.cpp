@@ -17,7 +17,7 @@ using namespace accel_detail;
 namespace {
 
 /// Fewer primitives are built by the caller's thread.
-constexpr std::size_t kTeamWork = 4096;
+constexpr std::size_t kParallelWork = 4096;
 
 /// Refs of the primitives that can be hit.
 struct RefList {
@@ -74,7 +74,7 @@ void fill_leaf(AccelTree& tree, const AccelInput& input, const HugeVector<BuildR
   });
 }
 
-/// Within a team of threads, to which the stages give tasks.
+/// Within a parallel region, to which the stages give tasks.
 std::unique_ptr<AccelTree> build_tree(const AccelInput& input, std::size_t count, BuildQuality quality,
                                       Progress* progress) {
   const BuildStage making_refs(progress, StageWork::refs), filling_packs(progress, StageWork::packs);
@@ -150,12 +150,12 @@ Accel Accel::build(const AccelInput& input, BuildQuality quality, Progress* prog
     if (instance.object && instance.object->stats().count(PrimitiveKind::instance))
       throw limit_error({}, "instance", "its object holds instances itself", "flatten the hierarchy");
 
-  // One team for all stages rather than one each: at the end of its work a team waits for the slowest of its
-  // threads, and where others use the machine that may be one that does not run at all. Tasks are taken by
-  // those that do.
+  // One group of threads for all stages rather than one each: at the end of its work the group waits for the
+  // slowest of its threads, and where others use the machine that may be one that does not run at all. Tasks
+  // are taken by those that do.
   std::unique_ptr<AccelTree> tree;
   std::exception_ptr error;
-#pragma omp parallel if (count >= kTeamWork)
+#pragma omp parallel if (count >= kParallelWork)
 #pragma omp single
   try {
     tree = build_tree(input, count, quality, progress);

@@ -1,5 +1,5 @@
 #pragma once
-// The acceleration structure: what a ray meets first, and whether it meets anything at all.
+// The acceleration structure: what a ray hits first, and whether it hits anything at all.
 //
 // One bounding volume hierarchy over triangles, spheres, discs and instances of other hierarchies. It knows
 // geometry only: no materials, normals or textures. The caller gets which primitive was hit, at which t and
@@ -64,7 +64,7 @@ struct AccelStats {
 
 struct AccelTree;
 
-/// Const after the build; any number of threads may trace at once. Movable; an empty one meets nothing.
+/// Const after the build; any number of threads may trace at once. Movable; an empty one hits nothing.
 class Accel {
 public:
   Accel();
@@ -82,11 +82,11 @@ public:
   static std::uint64_t build_work(std::size_t primitives);
 
   /// The closest hit with t in (t_min, t_max), or nothing. A negative t_min counts as 0. The direction is of
-  /// any length from 1e-18 to 1e18; a ray that is not finite meets nothing.
+  /// any length from 1e-18 to 1e18; a ray that is not finite hits nothing.
   std::optional<Hit> intersect(const Ray& ray) const;
-  /// The same without an optional to copy; `hit` is undefined where nothing is met.
+  /// The same without an optional to copy; `hit` is undefined where nothing is hit.
   bool intersect(const Ray& ray, Hit& hit) const;
-  /// The same for many rays at once: hits[i] is that of *rays[i], its t infinite where nothing is met. There
+  /// The same for many rays at once: hits[i] is that of *rays[i], its t infinite where nothing is hit. There
   /// are as many hits, or more. Faster if neighbours in the list are neighbours in space, as camera rays are.
   void intersect(std::span<const Ray* const> rays, std::span<Hit> hits) const;
   /// Whether there is any hit with t in (t_min, t_max): exactly when intersect finds one.

@@ -3,7 +3,7 @@
 // heuristic over bins of centroids is least (Wald 2007, "On fast Construction of SAH-based Bounding Volume
 // Hierarchies").
 //
-// At high quality triangles that reach across a split are named on both sides where that is worth it
+// At high quality triangles that reach across a split are referenced on both sides where that is worth it
 // (accel/spatial_split.h): in Sponza primary rays are 1.15 and diffuse ones 1.18 times as fast, for 6 % more
 // refs. Cutting large triangles up beforehand (Karras and Aila 2013, "Fast Parallel Construction of
 // High-Quality Bounding Volume Hierarchies", section 4.3) was tried instead and made Sponza slower: walls and

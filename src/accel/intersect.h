@@ -29,8 +29,8 @@ inline bool precedes(const Hit& hit, const Hit& found) {
 /// Whether a triangle is hit with t in (t_min, t_max). For the closest hit, sets hit and lowers t_max to its
 /// t; at the t of the hit so far, if the triangle precedes.
 template <class F, bool any_hit>
-[[gnu::always_inline]] inline bool meet_triangles(const TrianglePack& pack, const ShearedRay<F>& ray,
-                                                  float t_min, float& t_max, Hit& hit) {
+[[gnu::always_inline]] inline bool intersect_triangles(const TrianglePack& pack, const ShearedRay<F>& ray,
+                                                       float t_min, float& t_max, Hit& hit) {
   const TriangleHits<F> found(pack, ray);
   if (!found.lanes) return false;
   simd::LaneMask closer = found.lanes & less(F(t_min), found.t) & less(found.t, F(t_max));

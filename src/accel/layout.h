@@ -39,7 +39,7 @@ struct ChildRef {
 static_assert(accel_detail::PrimitiveKinds::kCount <= 16);
 
 /// Boxes of eight children: box[axis][0] their lower and box[axis][1] their upper planes. Unused slots hold
-/// an empty box, which no ray meets.
+/// an empty box, which no ray hits.
 struct alignas(64) WideNode {
   std::array<std::array<std::array<float, kWidth>, 2>, 3> box;
   std::array<ChildRef, kWidth> child;

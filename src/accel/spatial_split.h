@@ -1,6 +1,7 @@
 #pragma once
-// Splits of space rather than of a list: primitives that reach across are named on both sides, each with the
-// box of its part there (Stich, Friedrich & Dietrich 2009, "Spatial Splits in Bounding Volume Hierarchies").
+// Splits of space rather than of a list: primitives that reach across are referenced on both sides, each with
+// the box of its part there (Stich, Friedrich & Dietrich 2009, "Spatial Splits in Bounding Volume
+// Hierarchies").
 
 #include "accel/split.h"
 

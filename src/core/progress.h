@@ -76,7 +76,7 @@ public:
   void reach(double share) {
     whole_.check();
     const auto done = static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(work_));
-    if (done < done_ + work_ / 1024 + 1) return; // steps that nobody would see
+    if (done < done_ + work_ / 1024 + 1) return; // steps too small to see
     whole_.advance(done - done_);
     done_ = done;
   }

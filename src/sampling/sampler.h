@@ -49,7 +49,7 @@ constexpr std::uint32_t permute(std::uint32_t index, std::uint32_t length, std::
 }
 
 /// Every value is in [0, 1). Pixels (but for blue_noise), bounces, dimensions and indices are independent of
-/// each other; within one of them the samples 0, 1, 2, … of a pixel are spread as the type says, and any
+/// each other; within one of them the samples 0, 1, 2, … of a pixel are distributed as the type says, and any
 /// number of them may be used. A run is aligned if its first number is a multiple of its length. One
 /// dimension is a point's x.
 ///
@@ -88,8 +88,8 @@ public:
   std::uint32_t sample() const { return sample_; }
 
   /// For the k-th of `count` branches that a sample divides into: the branches of samples 0, 1, 2, ... are
-  /// the samples k + count * 0, 1, 2, ... of one sequence, as well spread as that. Numbers drawn before, for
-  /// one purpose and at one bounce, must not be drawn again.
+  /// the samples k + count * 0, 1, 2, ... of one sequence, as well distributed as that. Numbers drawn before,
+  /// for one purpose and at one bounce, must not be drawn again.
   Sampler branch(std::uint32_t k, std::uint32_t count) const {
     Sampler s = *this;
     if (type_ == SamplerType::independent)

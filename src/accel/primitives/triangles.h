@@ -1,5 +1,5 @@
 #pragma once
-// Triangles with a watertight test. They are most of what rays meet, so the traversal and the packets of rays
+// Triangles with a watertight test. They are most of what rays hit, so the traversal and the packets of rays
 // name them: all other kinds go through their intersect().
 
 #include "accel/primitives/pack.h"
@@ -207,10 +207,10 @@ template <class F, class Triangles>
   return result;
 }
 
-/// Where a line meets eight triangles, or eight lines meet one.
+/// Where a line hits eight triangles, or eight lines hit one.
 template <class F>
 struct TriangleHits {
-  simd::LaneMask lanes; ///< that meet; all else says something of these only
+  simd::LaneMask lanes; ///< that hit; all else says something of these only
   EdgeFunctions<F> edge;
   F determinant, t; ///< infinite or NaN where the triangle is seen edge-on
 

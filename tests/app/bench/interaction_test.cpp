@@ -1,4 +1,4 @@
-// From hand to picture: what is measured, and the script that measures.
+// Input latency: what is measured, and the script that measures.
 
 #include "app/bench/bench_script.h"
 #include "app/bench/interaction_bench.h"
