@@ -18,11 +18,11 @@ namespace candela {
 enum class Dimension : std::uint32_t {
   film,             ///< position within the pixel's filter
   lens,             ///< position on the aperture
-  light_position,   ///< which light next-event estimation asks, and where on it
+  light_position,   ///< which light next-event estimation samples, and where on it
   bsdf_lobe,        ///< which lobe scatters
   bsdf_direction,   ///< where to
   russian_roulette, ///< whether the path goes on
-  opacity,          ///< whether light meets a partly transparent surface
+  opacity,          ///< whether a ray hits a partly transparent surface
   count
 };
 
@@ -101,7 +101,7 @@ public:
 
   void set_bounce(std::uint32_t bounce) { bounce_key_ = hash_combine(pixel_key_, bounce); }
 
-  /// The `index`-th of repeated draws for one purpose (surfaces that are looked through). A dimension is
+  /// The `index`-th of repeated draws for one purpose (surfaces that a ray passes by opacity). A dimension is
   /// drawn in 1-D or in 2-D, not both: they are not independent.
   float get_1d(Dimension dimension, std::uint32_t index = 0) const {
     if (type_ != SamplerType::stratified) return get_2d(dimension, index).x;
