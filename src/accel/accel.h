@@ -1,5 +1,5 @@
 #pragma once
-// The acceleration structure: what a ray meets first, and whether it meets anything at all.
+// The acceleration structure: what a ray hits first, and whether it hits anything at all.
 //
 // One bounding volume hierarchy over triangles, spheres, discs and instances of other hierarchies. It knows
 // geometry only: no materials, normals or textures. The caller gets which primitive was hit, at which t and
@@ -7,9 +7,11 @@
 //
 // Triangles are watertight: a ray that passes exactly through an edge or a vertex that triangles share hits
 // at least one of them. The closest hit, the any-hit answer and the tree are the same for any number of
-// threads and for any SIMD instruction set, and the hits for any company of rays. Of primitives that are hit
-// at the same t the first is found (but where one is seen so nearly edge-on that its t is unsure).
+// threads and for any SIMD instruction set, and the hits do not depend on the batch that rays are traced in.
+// Of primitives that are hit at the same t the first is found (but where one is seen so nearly edge-on that
+// its t is unsure).
 
+#include "accel/primitives/primitive_kinds.h"
 #include "core/bounds.h"
 #include "core/progress.h"
 #include "core/ray.h"
@@ -21,39 +23,6 @@
 #include <span>
 
 namespace candela {
-
-enum class PrimitiveKind : std::uint32_t { triangle, sphere, disc };
-
-/// A full sphere, hit from outside and from inside. World space.
-struct SphereGeometry {
-  vec3 center{0};
-  float radius = 1;
-};
-
-/// A flat disc, hit from both sides. World space; the normal is of unit length.
-struct DiscGeometry {
-  vec3 center{0};
-  float radius = 1;
-  vec3 normal{0, 0, 1};
-};
-
-class Accel;
-
-/// A placed copy of an object. The object holds primitives but no instances of its own, is built before and
-/// outlives whatever is built from it. The matrix is affine and invertible (a singular one is skipped).
-struct InstanceGeometry {
-  const Accel* object = nullptr;
-  mat4 world_from_object{1};
-};
-
-/// What to build from. Nothing is referenced after the build but the objects of instances.
-struct AccelInput {
-  std::span<const vec3> vertices = {};
-  std::span<const uvec3> triangles = {}; ///< three indices into vertices each
-  std::span<const SphereGeometry> spheres = {};
-  std::span<const DiscGeometry> discs = {};
-  std::span<const InstanceGeometry> instances = {};
-};
 
 inline constexpr std::uint32_t kNoInstance = 0xffffffffu;
 
@@ -78,7 +47,7 @@ enum class BuildQuality {
 };
 
 struct AccelStats {
-  std::size_t triangles = 0, spheres = 0, discs = 0, instances = 0; ///< in the tree
+  std::array<std::size_t, accel_detail::PrimitiveKinds::kCount> primitives{}; ///< in the tree, of each kind
   /// Left out: a vertex that is not finite or out of range, no area, a radius that is not positive, a
   /// singular matrix, an empty object.
   std::size_t skipped = 0;
@@ -89,11 +58,13 @@ struct AccelStats {
   /// Salmon 1987), as the traversal costs are weighed in the builder.
   double sah_cost = 0;
   std::size_t bytes = 0; ///< without the objects of instances
+
+  std::size_t count(PrimitiveKind kind) const { return primitives[accel_detail::number(kind)]; }
 };
 
 struct AccelTree;
 
-/// Const after the build; any number of threads may trace at once. Movable; an empty one meets nothing.
+/// Const after the build; any number of threads may trace at once. Movable; an empty one hits nothing.
 class Accel {
 public:
   Accel();
@@ -102,19 +73,20 @@ public:
   Accel& operator=(Accel&&) noexcept;
 
   /// Uses the threads that OpenMP gives it; the tree does not depend on their number. Throws Error
-  /// (ExitCode::limit) above 2^28 primitives or for nested instances; Cancelled soon after `progress`, which
-  /// may be null, is told to end. The caller has progress->expect() build_work() of the input's primitives.
+  /// (ExitCode::limit) above 2^28 primitives, above 2^27 leaves of one kind, or for nested instances;
+  /// Cancelled soon after `progress`, which may be null, is told to end. The caller has progress->expect()
+  /// build_work() of the input's primitives.
   static Accel build(const AccelInput& input, BuildQuality quality = BuildQuality::high,
                      Progress* progress = nullptr);
   /// The work of a build from so many primitives, of all kinds together.
   static std::uint64_t build_work(std::size_t primitives);
 
   /// The closest hit with t in (t_min, t_max), or nothing. A negative t_min counts as 0. The direction is of
-  /// any length from 1e-18 to 1e18; a ray that is not finite meets nothing.
+  /// any length from 1e-18 to 1e18; a ray that is not finite hits nothing.
   std::optional<Hit> intersect(const Ray& ray) const;
-  /// The same without an optional to copy; `hit` is undefined where nothing is met.
+  /// The same without an optional to copy; `hit` is undefined where nothing is hit.
   bool intersect(const Ray& ray, Hit& hit) const;
-  /// The same for many rays at once: hits[i] is that of *rays[i], its t infinite where nothing is met. There
+  /// The same for many rays at once: hits[i] is that of *rays[i], its t infinite where nothing is hit. There
   /// are as many hits, or more. Faster if neighbours in the list are neighbours in space, as camera rays are.
   void intersect(std::span<const Ray* const> rays, std::span<Hit> hits) const;
   /// Whether there is any hit with t in (t_min, t_max): exactly when intersect finds one.

@@ -14,9 +14,9 @@ namespace {
 using simd::IntVec4;
 using simd::Vec4;
 
-/// The refs of a range lie in one of two arrays: `from`, whence a partition brings them to `to`. Out of place
-/// it needs no branch that depends on the ref, and half of those would be mispredicted; and ranges in the
-/// upper levels are partitioned in parallel.
+/// The refs of a range lie in one of two arrays: `from`, from which a partition moves them to `to`. Out of
+/// place it needs no branch that depends on the ref, and half of those would be mispredicted; and ranges in
+/// the upper levels are partitioned in parallel.
 struct Buffers {
   BuildRef *from, *to;
 };
@@ -37,7 +37,7 @@ public:
     Subtree root = bvh_.root();
     other_.resize(root.capacity);
     root_area_ = bounds.box.half_area();
-    pack_price_ = kPackPrice * bounds.box.half_area() / static_cast<float>(root.count);
+    pack_cost_ = kPackMemoryCost * bounds.box.half_area() / static_cast<float>(root.count);
     ForestCosts cost;
     build_subtree(root, {bvh_.refs.data(), other_.data()}, bounds, 1, cost);
     stage_.check();
@@ -263,7 +263,7 @@ private:
       if (s.count <= kSweepRange) {
         const Ranks ranks(buffers.from + s.begin, s.count);
         const Split split = ranks.best_split();
-        if (as_leaf && split.cost + pack_price_ >= bounds.box.half_area()) return no_sides(s, buffers);
+        if (as_leaf && split.cost + pack_cost_ >= bounds.box.half_area()) return no_sides(s, buffers);
         return split_few(s, buffers, ranks, split);
       }
       const Binning binning(bounds.centroids);
@@ -295,7 +295,7 @@ private:
     const BuildRef* first = buffers.from + s.begin;
     const float half_area = bounds.box.half_area();
     const bool leaf = fits_leaf(first, s.count, bvh_.mixed);
-    const float as_leaf = leaf ? half_area * leaf_cost(first->kind()) + pack_price_ : kInfinity;
+    const float as_leaf = leaf ? half_area * leaf_cost(first->kind()) + pack_cost_ : kInfinity;
     if (s.count == 1) {
       settle(s, buffers);
       cost.fill(as_leaf);
@@ -336,8 +336,8 @@ private:
   BuildQuality quality_;
   const BuildStage& stage_;
   HugeVector<BuildRef> other_;
-  float pack_price_ = 0; ///< as an area
-  float root_area_ = 0;  ///< half of it
+  float pack_cost_ = 0; ///< as an area
+  float root_area_ = 0; ///< half of it
 };
 
 } // namespace
@@ -346,7 +346,7 @@ BinaryBvh build_binary_bvh(const AccelInput& input, HugeVector<BuildRef> refs, c
                            bool mixed, BuildQuality quality, Progress* progress) {
   BinaryBvh bvh;
   bvh.count = static_cast<std::uint32_t>(refs.size());
-  if (quality == BuildQuality::high && !input.triangles.empty()) {
+  if (quality == BuildQuality::high && can_cut(input)) {
     refs.resize(with_doubles(refs.size()));
     bvh.rooms.resize(refs.size());
   }

@@ -3,7 +3,7 @@
 // heuristic over bins of centroids is least (Wald 2007, "On fast Construction of SAH-based Bounding Volume
 // Hierarchies").
 //
-// At high quality triangles that reach across a split are named on both sides where that is worth it
+// At high quality triangles that reach across a split are referenced on both sides where that is worth it
 // (accel/spatial_split.h): in Sponza primary rays are 1.15 and diffuse ones 1.18 times as fast, for 6 % more
 // refs. Cutting large triangles up beforehand (Karras and Aila 2013, "Fast Parallel Construction of
 // High-Quality Bounding Volume Hierarchies", section 4.3) was tried instead and made Sponza slower: walls and
@@ -42,14 +42,14 @@ struct alignas(32) BuildRef {
   std::uint32_t tagged_kind;
 
   static constexpr std::uint32_t kTag = 1u << 30;
-  static BuildRef make(const Bounds3& b, std::uint32_t index, LeafKind kind) {
+  static BuildRef make(const Bounds3& b, std::uint32_t index, PrimitiveKind kind) {
     return {{b.lo.x, b.lo.y, b.lo.z},
             index | kTag,
             {-b.hi.x, -b.hi.y, -b.hi.z},
             static_cast<std::uint32_t>(kind) | kTag};
   }
   std::uint32_t index() const { return tagged_index & ~kTag; } ///< into the input array of its kind
-  LeafKind kind() const { return static_cast<LeafKind>(tagged_kind & ~kTag); }
+  PrimitiveKind kind() const { return static_cast<PrimitiveKind>(tagged_kind & ~kTag); }
   simd::Float8 box() const { return simd::Float8::load(lo.data()); }
   /// The part of it in a box.
   BuildRef within(const BuildBox& b) const {
@@ -111,8 +111,8 @@ inline constexpr std::size_t kMaxPrimitives = (std::size_t{1} << 28) - 1;
 constexpr std::size_t with_doubles(std::size_t refs) { return refs + refs / 8; }
 
 /// The most primitives of a kind that a leaf holds.
-constexpr std::uint32_t leaf_capacity(LeafKind kind) {
-  return kind == LeafKind::instance ? 1 : static_cast<std::uint32_t>(kWidth);
+constexpr std::uint32_t leaf_capacity(PrimitiveKind kind) {
+  return PrimitiveKinds::kLeafCapacity[number(kind)];
 }
 
 struct BinaryBvh {
@@ -139,7 +139,7 @@ struct BinaryBvh {
             s.capacity - room.left_capacity};
   }
   BuildBox box(Subtree s) const { return {s.count == 1 ? refs[s.begin].box() : nodes[s.node].box()}; }
-  LeafKind kind(Subtree s) const { return refs[s.begin].kind(); }
+  PrimitiveKind kind(Subtree s) const { return refs[s.begin].kind(); }
 };
 
 /// Whether count refs at `refs` make up a leaf.

@@ -14,12 +14,12 @@ namespace candela::accel_detail {
 
 /// Costs in node visits. What a pack costs matters little: from 0.5 to 4 the rays per second differ by 2 %.
 inline constexpr float kNodeCost = 1.0f;
-constexpr float leaf_cost(LeafKind kind) { return kind == LeafKind::instance ? 8.0f : 1.0f; }
+constexpr float leaf_cost(PrimitiveKind kind) { return PrimitiveKinds::kLeafCost[number(kind)]; }
 /// What a pack costs for the memory that it takes, visited or not: as if its area were greater by so many
 /// times that of the root, divided by the number of primitives. Rarely visited packs are filled; the expected
 /// cost grows by less than 0.3 %, and bytes per triangle shrink from 65 to 57 (Sponza), from 61 to 50 (bunny)
 /// and from 59 to 53 (sphere). At 8 all is full, but the Cornell box's packs are few and large.
-inline constexpr float kPackPrice = 4;
+inline constexpr float kPackMemoryCost = 4;
 
 /// [i]: the cost of a forest of at most i trees, i in 1..7; [0] is infinite.
 using ForestCosts = std::array<float, kWidth>;

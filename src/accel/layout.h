@@ -1,10 +1,9 @@
 #pragma once
-// What lies in memory while rays are traced: nodes of eight boxes and packs of up to eight primitives, each
-// field as eight floats side by side, so that one SIMD instruction treats all of them.
+// What lies in memory while rays are traced: nodes of eight boxes, and the packs of each primitive kind.
 
 #include "accel/accel.h"
 #include "accel/huge_pages.h"
-#include "accel/simd.h"
+#include "accel/simd/simd.h"
 
 #include <array>
 #include <bit>
@@ -12,74 +11,39 @@
 
 namespace candela {
 
-inline constexpr int kWidth = simd::kLanes;
-
-enum class LeafKind : std::uint32_t { triangles, spheres, discs, instance };
-
-/// A node or a leaf: bit 31 tells which, bits 29 and 30 the leaf's kind, the others index the node, pack or
-/// instance. A leaf is exactly one pack, so it needs no count.
+/// A node or a leaf. Bit 31 tells which; a node's other bits are its index. A leaf has its kind in bits 27 to
+/// 30 and the index of its pack among those of that kind below. A leaf is exactly one pack, so it needs no
+/// count.
+///
+/// So there is room for 16 kinds, and for 2^27 packs of each (a build of more is refused): 43 GB of
+/// triangles. A kind in the pack's header, or in a table by pack, would lift that limit, but has to be loaded
+/// before the traversal knows what to do with the leaf.
 struct ChildRef {
   static constexpr std::uint32_t kLeafBit = 1u << 31;
-  static constexpr std::uint32_t kIndexMask = (1u << 29) - 1;
+  static constexpr int kPackBits = 27;
+  static constexpr std::uint32_t kMaxPacks = 1u << kPackBits;
   std::uint32_t bits; // no initialiser: a traversal stack of these must cost nothing
 
   static constexpr ChildRef node(std::uint32_t index) { return {index}; }
-  static constexpr ChildRef leaf(LeafKind kind, std::uint32_t index) {
-    return {kLeafBit | static_cast<std::uint32_t>(kind) << 29 | index};
+  static constexpr ChildRef leaf(PrimitiveKind kind, std::uint32_t pack) {
+    return {kLeafBit | static_cast<std::uint32_t>(kind) << kPackBits | pack};
   }
   constexpr bool is_leaf() const { return bits & kLeafBit; }
-  constexpr LeafKind kind() const { return static_cast<LeafKind>(bits >> 29 & 3); }
-  constexpr std::uint32_t index() const { return bits & kIndexMask; }
+  /// Of a leaf.
+  constexpr PrimitiveKind kind() const { return static_cast<PrimitiveKind>(bits >> kPackBits & 15); }
+  constexpr std::uint32_t pack() const { return bits & (kMaxPacks - 1); }
+  /// Of a node.
+  constexpr std::uint32_t node() const { return bits; }
   bool operator==(const ChildRef&) const = default;
 };
+static_assert(accel_detail::PrimitiveKinds::kCount <= 16);
 
 /// Boxes of eight children: box[axis][0] their lower and box[axis][1] their upper planes. Unused slots hold
-/// an empty box, which no ray meets.
+/// an empty box, which no ray hits.
 struct alignas(64) WideNode {
   std::array<std::array<std::array<float, kWidth>, 2>, 3> box;
   std::array<ChildRef, kWidth> child;
   bool operator==(const WideNode&) const = default;
-};
-
-/// Coordinates of eight primitives that no ray meets: products and differences of them are NaN. So lanes in
-/// use need no mask, and no primitive is in several lanes of a pack.
-inline constexpr std::array<float, kWidth> kNowhere{kInfinity, kInfinity, kInfinity, kInfinity,
-                                                    kInfinity, kInfinity, kInfinity, kInfinity};
-
-/// vertex[k][axis] of eight triangles.
-struct alignas(64) TrianglePack {
-  std::array<std::array<std::array<float, kWidth>, 3>, 3> vertex;
-  std::array<std::uint32_t, kWidth> primitive;
-
-  static TrianglePack unused() {
-    constexpr std::array<std::array<float, kWidth>, 3> kVertex{kNowhere, kNowhere, kNowhere};
-    return {{kVertex, kVertex, kVertex}, {}};
-  }
-  bool operator==(const TrianglePack&) const = default;
-};
-
-struct alignas(32) SpherePack {
-  std::array<std::array<float, kWidth>, 3> center;
-  std::array<float, kWidth> radius;
-  std::array<std::uint32_t, kWidth> primitive;
-
-  static SpherePack unused() { return {{kNowhere, kNowhere, kNowhere}, {}, {}}; }
-  bool operator==(const SpherePack&) const = default;
-};
-
-struct alignas(32) DiscPack {
-  std::array<std::array<float, kWidth>, 3> center, normal;
-  std::array<float, kWidth> radius;
-  std::array<std::uint32_t, kWidth> primitive;
-
-  static DiscPack unused() { return {{kNowhere, kNowhere, kNowhere}, {}, {}, {}}; }
-  bool operator==(const DiscPack&) const = default;
-};
-
-struct InstanceRecord {
-  const AccelTree* object;
-  glm::mat4x3 object_from_world;
-  std::uint32_t index; ///< into AccelInput::instances
 };
 
 /// The builder keeps every way from the root to a leaf shorter than this.
@@ -95,12 +59,18 @@ struct AccelTree {
   ChildRef root{};
   Bounds3 bounds;
   HugeVector<WideNode> nodes;
-  HugeVector<TrianglePack> triangles;
-  HugeVector<SpherePack> spheres;
-  HugeVector<DiscPack> discs;
-  std::vector<InstanceRecord> instances;
+  accel_detail::PrimitiveKinds::Storage<HugeVector> storage; ///< packs of each kind
   AccelStats stats;
 
+  template <class Kind>
+  const HugeVector<typename Kind::Pack>& packs() const {
+    return std::get<accel_detail::number(accel_detail::PrimitiveKinds::kind_of<Kind>)>(storage);
+  }
+  template <class Kind>
+  HugeVector<typename Kind::Pack>& packs() {
+    return std::get<accel_detail::number(accel_detail::PrimitiveKinds::kind_of<Kind>)>(storage);
+  }
+  const HugeVector<TrianglePack>& triangles() const { return packs<primitives::Triangles>(); }
   bool empty() const { return stats.leaves == 0; }
 };
 

@@ -4,8 +4,8 @@
 // They share the upper part of their way through the tree, which is found once for all of them, with a
 // frustum around them (the entry point search of Reshetov, Soupikov and Hurley 2005, "Multi-Level Ray Tracing
 // Algorithm", ACM TOG 24(3); here with up to kMaxEntryPoints of them). Where that ends at leaves and the
-// frustum meets but few of their triangles, eight rays at a time are tested with each. Else every ray goes on
-// alone from the entry points, so that rays that part company lose nothing. What a ray meets is the same in
+// frustum hits but few of their triangles, eight rays at a time are tested with each. Else every ray goes on
+// alone from the entry points, so that rays that diverge lose nothing. What a ray hits is the same in
 // any way: see Packet.
 //
 // Nanoseconds of a ray alone and in a packet, 512 x 512 pixels, at 1 and at 16 samples a pixel (a busy
@@ -32,7 +32,7 @@ namespace candela::accel_detail {
 /// From 12 to 48, no ray takes 10 % more or less time.
 inline constexpr std::size_t kMaxTriangles = 24;
 
-/// Where the rays of a packet begin: subtrees or leaves that hold all that they can meet, the one to enter
+/// Where the rays of a packet begin: subtrees or leaves that hold all that they can hit, the one to enter
 /// first last.
 struct EntryPoints {
   std::array<Waiting, kMaxEntryPoints> at;
@@ -51,11 +51,11 @@ struct EntryPoints {
 };
 
 enum class Depth {
-  above_leaves, ///< no farther than to nodes of which the packet may meet a leaf
+  above_leaves, ///< no farther than to nodes of which the packet may hit a leaf
   leaves,
 };
 
-/// Puts the children that the packet may meet in the place of their nodes, over and over. False where it has
+/// Puts the children that the packet may hit in the place of their nodes, over and over. False where it has
 /// to end before it is through, for want of room.
 template <class F>
 bool descend(const AccelTree& tree, const PacketFrustum<F>& frustum, Depth depth, EntryPoints& points) {
@@ -66,12 +66,14 @@ bool descend(const AccelTree& tree, const PacketFrustum<F>& frustum, Depth depth
       ++i;
       continue;
     }
-    const WideNode& node = tree.nodes[ref.index()];
+    const WideNode& node = tree.nodes[ref.node()];
     F t_enter;
-    const simd::LaneMask met = frustum.intersect(node, t_enter);
+    const simd::LaneMask lanes_hit = frustum.intersect(node, t_enter);
     bool leaf = false;
-    simd::for_each_lane(met, [&](int lane) { leaf |= node.child[static_cast<std::size_t>(lane)].is_leaf(); });
-    const bool room = points.count - 1 + static_cast<std::size_t>(std::popcount(met)) <= kMaxEntryPoints;
+    simd::for_each_lane(lanes_hit,
+                        [&](int lane) { leaf |= node.child[static_cast<std::size_t>(lane)].is_leaf(); });
+    const bool room =
+        points.count - 1 + static_cast<std::size_t>(std::popcount(lanes_hit)) <= kMaxEntryPoints;
     if (!room && depth == Depth::leaves) return false;
     if (!room || (leaf && depth == Depth::above_leaves)) {
       through &= room;
@@ -81,7 +83,7 @@ bool descend(const AccelTree& tree, const PacketFrustum<F>& frustum, Depth depth
     points.remove(i);
     alignas(32) std::array<float, kWidth> key;
     t_enter.store(key.data());
-    simd::for_each_lane(met, [&](int lane) {
+    simd::for_each_lane(lanes_hit, [&](int lane) {
       const auto k = static_cast<std::size_t>(lane);
       points.push({node.child[k], key[k]}, {&node, static_cast<std::uint32_t>(lane)});
     });
@@ -90,24 +92,24 @@ bool descend(const AccelTree& tree, const PacketFrustum<F>& frustum, Depth depth
   return through;
 }
 
-/// The triangles that a packet can meet.
+/// The triangles that a packet can hit.
 class FewTriangles {
 public:
   struct Placed : PackedTriangle {
     ChildPlace leaf; ///< one that it is in
   };
 
-  /// False where they are many, or where the packet can meet something else.
+  /// False where they are many, or where the packet can hit something else.
   template <class F>
   bool find(const AccelTree& tree, const EntryPoints& points, const PacketFrustum<F>& frustum) {
     count_ = 0;
     for (std::size_t i = 0; i < points.count; ++i) {
       const ChildRef leaf = points.at[i].value;
-      if (leaf.kind() != LeafKind::triangles) return false;
-      const TrianglePack& pack = tree.triangles[leaf.index()];
-      const simd::LaneMask met = frustum.intersect(pack);
-      if (count_ + static_cast<std::size_t>(std::popcount(met)) > kMaxTriangles) return false;
-      simd::for_each_lane(met, [&](int lane) {
+      if (leaf.kind() != PrimitiveKind::triangle) return false;
+      const TrianglePack& pack = tree.triangles()[leaf.pack()];
+      const simd::LaneMask lanes_hit = frustum.intersect(pack);
+      if (count_ + static_cast<std::size_t>(std::popcount(lanes_hit)) > kMaxTriangles) return false;
+      simd::for_each_lane(lanes_hit, [&](int lane) {
         const auto k = static_cast<std::size_t>(lane);
         insert({{&pack, k, pack.primitive[k]}, points.place[i]});
       });
@@ -136,9 +138,9 @@ private:
 
 /// Neighbouring rays, of which there is one at least.
 ///
-/// A ray alone meets a leaf only if it meets its box before the closest hit so far. That is no matter but
+/// A ray alone hits a leaf only if it hits its box before the closest hit so far. That is no matter but
 /// where a triangle is seen nearly edge-on: there t may be off by more than boxes are padded for. So a hit in
-/// a leaf that was found with the frustum stands only if the box is met up to there; then the ray alone would
+/// a leaf that was found with the frustum stands only if the box is hit up to there; then the ray alone would
 /// find it, too, and nothing closer. Else it is asked.
 template <class F>
 class Packet {
@@ -147,7 +149,7 @@ public:
     const bool alike = lanes_.load(rays);
     const auto frustum = PacketFrustum<F>::around(lanes_, tree);
     if (!frustum) return;
-    // A leaf is met only by rays that meet its box, too: where these go on alone, they begin above.
+    // A leaf is hit only by rays that hit its box, too: where these go on alone, they begin above.
     way_ = Way::subtrees;
     points_.push({tree.root, 0}, {nullptr, 0});
     const bool room = descend(tree, *frustum, Depth::above_leaves, points_);
@@ -157,10 +159,10 @@ public:
     way_ = alike && triangles_.find(tree, points_, *frustum) ? Way::few_triangles : Way::leaves;
   }
 
-  /// As trace, for all; the t of rays that meet nothing becomes infinite.
+  /// As trace, for all; the t of rays that hit nothing becomes infinite.
   void intersect(std::span<Hit> hits) const {
     if (way_ == Way::few_triangles) {
-      for (std::size_t group = 0; group < lanes_.groups; ++group) meet_few(group, hits);
+      for (std::size_t group = 0; group < lanes_.groups; ++group) intersect_few(group, hits);
       return;
     }
     for (std::size_t i = 0; i < rays_.size(); ++i)
@@ -168,7 +170,7 @@ public:
   }
   void occluded(std::span<bool> result) const {
     if (way_ == Way::few_triangles) {
-      for (std::size_t group = 0; group < lanes_.groups; ++group) meet_any(group, result);
+      for (std::size_t group = 0; group < lanes_.groups; ++group) occlude_few(group, result);
       return;
     }
     Hit unused;
@@ -186,42 +188,41 @@ public:
   std::size_t entry_point_count() const { return points_.count; }
 
 private:
-  /// Whether the ray meets the box before t_max.
-  bool meets_box(const Ray& ray, const ChildPlace& place, float t_max) const {
+  /// Whether the ray hits the box before t_max.
+  bool hits_box(const Ray& ray, const ChildPlace& place, float t_max) const {
     if (place.node == nullptr) return true;
     F unused;
-    const simd::LaneMask met =
+    const simd::LaneMask lanes_hit =
         BoxRay<F>(ray, tree_).intersect(*place.node, F(std::max(ray.t_min, 0.0f)), F(t_max), unused);
-    return met >> place.lane & 1;
+    return lanes_hit >> place.lane & 1;
   }
 
   template <bool any_hit>
   bool trace_one(const Ray& ray, Hit& hit) const {
-    NoCost free_of_charge;
+    NoCost no_cost;
     if (way_ == Way::subtrees && points_.count == 0) return false;
-    if (way_ == Way::subtrees)
-      return trace_subtrees<F, any_hit>(tree_, points_.span(), ray, hit, free_of_charge);
+    if (way_ == Way::subtrees) return trace_subtrees<F, any_hit>(tree_, points_.span(), ray, hit, no_cost);
     if (way_ == Way::leaves) {
       std::size_t last = 0;
       if (!trace_leaves<F, any_hit>(tree_, points_.span(), ray, hit, last)) return false;
-      if (meets_box(ray, points_.place[last], any_hit ? ray.t_max : hit.t)) return true;
+      if (hits_box(ray, points_.place[last], any_hit ? ray.t_max : hit.t)) return true;
     }
     return trace<F, any_hit>(tree_, ray, hit);
   }
 
-  void meet_few(std::size_t group, std::span<Hit> hits) const {
+  void intersect_few(std::size_t group, std::span<Hit> hits) const {
     const std::size_t first = group * kWidth;
     const ShearedRay<F> ray = lanes_.group(group);
     const BoxRays<F> box_rays(lanes_, group, tree_);
     const F t_min = F::load(&lanes_.t_min[first]);
     F t_max = F::load(&lanes_.t_max[first]), u(0.0f), v(0.0f), primitive(0.0f);
-    simd::LaneMask met = 0, stands = 0;
+    simd::LaneMask lanes_hit = 0, stands = 0;
     for (const FewTriangles::Placed& triangle : triangles_.span()) {
       const TriangleHits<F> found(triangle, ray);
       if (!found.lanes) continue;
       const simd::LaneMask closer = found.lanes & less(t_min, found.t) & less(found.t, t_max);
       if (!closer) continue;
-      met |= closer;
+      lanes_hit |= closer;
       stands = (stands & ~closer) | (closer & box_rays.intersect(triangle.leaf, t_min, found.t));
       const F inverse = F(1.0f) / found.determinant;
       t_max = select_lanes(closer, found.t, t_max);
@@ -230,29 +231,30 @@ private:
       primitive = select_lanes(closer, F(std::bit_cast<float>(triangle.primitive)), primitive);
     }
     alignas(32) std::array<float, kWidth> ts, us, vs, primitives;
-    select_lanes(met, t_max, F(kInfinity)).store(ts.data());
+    select_lanes(lanes_hit, t_max, F(kInfinity)).store(ts.data());
     u.store(us.data()), v.store(vs.data()), primitive.store(primitives.data());
     for (std::size_t k = 0; k < std::min<std::size_t>(kWidth, rays_.size() - first); ++k) {
       Hit& hit = hits[first + k];
       hit = {ts[k],       us[k],
              vs[k],       std::bit_cast<std::uint32_t>(primitives[k]),
              kNoInstance, PrimitiveKind::triangle};
-      if (((met & ~stands) >> k & 1) && !trace<F, false>(tree_, *rays_[first + k], hit)) hit.t = kInfinity;
+      if (((lanes_hit & ~stands) >> k & 1) && !trace<F, false>(tree_, *rays_[first + k], hit))
+        hit.t = kInfinity;
     }
   }
 
-  void meet_any(std::size_t group, std::span<bool> result) const {
+  void occlude_few(std::size_t group, std::span<bool> result) const {
     const std::size_t first = group * kWidth;
     const ShearedRay<F> ray = lanes_.group(group);
     const F t_min = F::load(&lanes_.t_min[first]), t_max = F::load(&lanes_.t_max[first]);
     std::optional<BoxRays<F>> box_rays;
-    simd::LaneMask met = 0, stands = 0;
+    simd::LaneMask lanes_hit = 0, stands = 0;
     for (const FewTriangles::Placed& triangle : triangles_.span()) {
       const TriangleHits<F> found(triangle, ray);
       if (!found.lanes) continue;
       const simd::LaneMask hit = found.lanes & less(t_min, found.t) & less(found.t, t_max);
       if (!(hit & ~stands)) continue;
-      met |= hit;
+      lanes_hit |= hit;
       if (!box_rays) box_rays.emplace(lanes_, group, tree_);
       stands |= hit & box_rays->intersect(triangle.leaf, t_min, t_max);
       if (stands == simd::kAllLanes) break;
@@ -260,7 +262,7 @@ private:
     for (std::size_t k = 0; k < std::min<std::size_t>(kWidth, rays_.size() - first); ++k) {
       Hit unused;
       result[first + k] =
-          (stands >> k & 1) || ((met >> k & 1) && trace<F, true>(tree_, *rays_[first + k], unused));
+          (stands >> k & 1) || ((lanes_hit >> k & 1) && trace<F, true>(tree_, *rays_[first + k], unused));
     }
   }
 

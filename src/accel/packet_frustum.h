@@ -1,5 +1,5 @@
 #pragma once
-// A packet of rays as one, and what it may meet.
+// A packet of rays as one, and what it may hit.
 
 #include "accel/intersect.h"
 
@@ -92,7 +92,7 @@ public:
     }
   }
 
-  /// Those that meet the box in [t_min, t_max]. The root is met by all.
+  /// Those that hit the box in [t_min, t_max]. The root is hit by all.
   simd::LaneMask intersect(const ChildPlace& place, F t_min, F t_max) const {
     if (place.node == nullptr) return simd::kAllLanes;
     F enter = t_min, leave = t_max;
@@ -170,7 +170,7 @@ public:
     return f;
   }
 
-  /// The children that the packet may meet, and a lower bound of where it enters them.
+  /// The children that the packet may hit, and a lower bound of where it enters them.
   simd::LaneMask intersect(const WideNode& node, F& t_enter) const {
     const auto& side = node.box[axis_[2]];
     const F near = nearest(F::load(side[down_].data())), far = farthest(F::load(side[!down_].data()));
@@ -184,7 +184,7 @@ public:
     return ~outside & simd::kAllLanes;
   }
 
-  /// The triangles that the packet may meet: none of the frustum's planes has all vertices outside.
+  /// The triangles that the packet may hit: none of the frustum's planes has all vertices outside.
   simd::LaneMask intersect(const TrianglePack& pack) const {
     simd::LaneMask left = simd::kAllLanes, right = left, under = left, over = left, behind = left,
                    beyond = left, unused = 0;

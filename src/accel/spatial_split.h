@@ -1,6 +1,7 @@
 #pragma once
-// Splits of space rather than of a list: primitives that reach across are named on both sides, each with the
-// box of its part there (Stich, Friedrich & Dietrich 2009, "Spatial Splits in Bounding Volume Hierarchies").
+// Splits of space rather than of a list: primitives that reach across are referenced on both sides, each with
+// the box of its part there (Stich, Friedrich & Dietrich 2009, "Spatial Splits in Bounding Volume
+// Hierarchies").
 
 #include "accel/split.h"
 
@@ -19,41 +20,42 @@ inline bool is_empty(const BuildBox& box) {
   return d[0] > 0 || d[1] > 0 || d[2] > 0;
 }
 
+/// Whether primitives of the kind can be cut: those of others are referenced on one side of a split only.
+inline bool cuttable(PrimitiveKind kind) {
+  static constexpr PerKind<bool> kCuttable = [] {
+    PerKind<bool> table{};
+    PrimitiveKinds::for_each(
+        [&]<class Kind>() { table[number(PrimitiveKinds::kind_of<Kind>)] = CuttableKind<Kind>; });
+    return table;
+  }();
+  return kCuttable[number(kind)];
+}
+inline bool can_cut(const AccelInput& input) {
+  bool any = false;
+  PrimitiveKinds::for_each([&]<class Kind>() { any |= CuttableKind<Kind> && Kind::count(input) > 0; });
+  return any;
+}
+
 /// Knows the primitives behind the refs.
 class Cutter {
 public:
   explicit Cutter(const AccelInput& input) : input_(input) {}
 
-  /// Of a triangle, within the ref's box. What rounding may have cut off is added.
+  /// Of a primitive of a cuttable kind, within the ref's box.
   Parts cut(const BuildRef& ref, const BuildBox& box, std::size_t axis, float plane) const {
-    using simd::Vec4;
-    const int a = static_cast<int>(axis);
-    const uvec3 t = input_.triangles[ref.index()];
-    std::array<Vec4, 3> p;
-    for (int k = 0; k < 3; ++k) {
-      const vec3 v = input_.vertices[t[k]];
-      p[static_cast<std::size_t>(k)] = Vec4{v.x, v.y, v.z, 0};
-    }
     Parts parts;
-    auto grow = [](BuildBox& to, Vec4 lo, Vec4 hi) { to.grow(joined(lo, -hi)); };
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec4 v = p[k], w = p[(k + 1) % 3];
-      if (v[a] <= plane) grow(parts.below, v, v);
-      if (v[a] >= plane) grow(parts.above, v, v);
-      if ((v[a] < plane) == (w[a] < plane) || v[a] == plane || w[a] == plane) continue;
-      Vec4 c = v + (w - v) * ((plane - v[a]) / (w[a] - v[a]));
-      // Rounding comes to 12 eps (2^-24) of the greater at most: 5 of w - v, which may be twice that, 1 of
-      // c, and 1 of c -+ pad.
-      Vec4 pad = simd::max4(simd::abs4(v), simd::abs4(w)) * 0x1p-20f;
-      c[a] = plane, pad[a] = 0;
-      grow(parts.below, c - pad, c + pad);
-      grow(parts.above, c - pad, c + pad);
-    }
+    auto below = [&](simd::Vec4 lo, simd::Vec4 hi) { parts.below.grow(joined(lo, -hi)); };
+    auto above = [&](simd::Vec4 lo, simd::Vec4 hi) { parts.above.grow(joined(lo, -hi)); };
+    PrimitiveKinds::visit(ref.kind(), [&]<class Kind>() {
+      if constexpr (CuttableKind<Kind>) Kind::cut(input_, ref.index(), axis, plane, below, above);
+      return CuttableKind<Kind>;
+    });
     parts.below.v = max(parts.below.v, box.v);
     parts.above.v = max(parts.above.v, box.v);
     return parts;
   }
 
+private:
   static simd::Float8 joined(simd::Vec4 lower, simd::Vec4 upper) {
     alignas(32) std::array<float, 8> v;
     for (int i = 0; i < 4; ++i) {
@@ -63,7 +65,6 @@ public:
     return simd::Float8::load(v.data());
   }
 
-private:
   const AccelInput& input_;
 };
 
@@ -84,12 +85,12 @@ public:
 
   /// The bins that a ref reaches from and to; of what cannot be cut, that of its centre.
   int first_bin(const BuildRef& ref) const {
-    if (ref.kind() != LeafKind::triangles) return bin(0.5f * (ref.lo[axis_] - ref.negated_hi[axis_]));
+    if (!cuttable(ref.kind())) return bin(0.5f * (ref.lo[axis_] - ref.negated_hi[axis_]));
     return bin(ref.lo[axis_]);
   }
   int last_bin(const BuildRef& ref) const {
     const int first = first_bin(ref);
-    if (ref.kind() != LeafKind::triangles) return first;
+    if (!cuttable(ref.kind())) return first;
     // What ends where a bin begins does not reach into it.
     const float hi = -ref.negated_hi[axis_];
     const int last = bin(hi);

@@ -39,9 +39,9 @@ struct BoxRay {
     }
   }
 
-  /// The children whose boxes the ray meets in [t_min, t_max], and where it enters them. With a direction
+  /// The children whose boxes the ray hits in [t_min, t_max], and where it enters them. With a direction
   /// component of 0 a distance may be 0 * inf = NaN, on the very plane; min and max then take their second
-  /// operand, which counts the slab as met.
+  /// operand, which counts the slab as hit.
   simd::LaneMask intersect(const WideNode& node, F t_min, F t_max, F& t_enter) const {
     F enter = t_min, leave = t_max;
     for (std::size_t i = 3; i-- > 0;) {
@@ -69,11 +69,11 @@ struct NoCost {
 template <class F, bool any_hit, class Cost>
 bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost);
 
-/// Spheres, discs and instances; out of line, for the registers belong to triangles. As meet_triangles, but
-/// t_max is the caller's to lower.
+/// A leaf of any kind but triangles; out of line, for the registers belong to triangles. As
+/// intersect_triangles, but t_max is the caller's to lower.
 template <class F, bool any_hit, class Cost>
-[[gnu::noinline]] bool meet_other_leaf(const AccelTree& tree, const Ray& ray, ChildRef leaf, float t_min,
-                                       float t_max, Hit& hit, Cost& cost) {
+[[gnu::noinline]] bool intersect_other_leaf(const AccelTree& tree, const Ray& ray, ChildRef leaf, float t_min,
+                                            float t_max, Hit& hit, Cost& cost) {
   if constexpr (!any_hit) // what is as far as the hit so far is to be compared with it
     if (t_max == hit.t) t_max = std::nextafter(t_max, kInfinity);
   auto accept = [&hit](const Hit& found) {
@@ -81,41 +81,33 @@ template <class F, bool any_hit, class Cost>
     hit = found;
     return true;
   };
-  auto accept_lane = [&](const std::array<std::uint32_t, kWidth>& primitive, PrimitiveKind kind,
-                         const LaneHits& lanes) {
-    if (any_hit || !lanes.lanes) return lanes.lanes != 0;
-    const std::size_t lane = closest_lane(lanes.lanes, lanes.t, primitive);
-    return accept({lanes.t[lane], 0, 0, primitive[lane], kNoInstance, kind});
-  };
-  LaneHits lanes;
-  switch (leaf.kind()) {
-  case LeafKind::triangles: break;
-  case LeafKind::spheres: {
-    const SpherePack& pack = tree.spheres[leaf.index()];
-    intersect_spheres<F>(pack, ray, t_min, t_max, lanes);
-    return accept_lane(pack.primitive, PrimitiveKind::sphere, lanes);
-  }
-  case LeafKind::discs: {
-    const DiscPack& pack = tree.discs[leaf.index()];
-    intersect_discs<F>(pack, ray, t_min, t_max, lanes);
-    return accept_lane(pack.primitive, PrimitiveKind::disc, lanes);
-  }
-  case LeafKind::instance: {
-    // In the object's space t stays the same, for the direction is not renormalised.
-    const InstanceRecord& instance = tree.instances[leaf.index()];
-    const auto& m = instance.object_from_world;
-    Ray local{m * vec4(ray.origin, 1), ray.t_min, m * vec4(ray.direction, 0), t_max};
-    Hit found;
-    if (!trace<F, any_hit>(*instance.object, local, found, cost)) return false;
-    if constexpr (any_hit) return true;
-    found.instance = instance.index;
-    return accept(found);
-  }
-  }
-  return false;
+  return PrimitiveKinds::visit(leaf.kind(), [&]<class Kind>() {
+    if constexpr (std::is_same_v<Kind, primitives::Triangles>) {
+      return false;
+    } else if constexpr (std::is_same_v<Kind, primitives::Instances>) {
+      // In the object's space t stays the same, for the direction is not renormalised.
+      const InstanceRecord& instance = tree.packs<Kind>()[leaf.pack()];
+      const auto& m = instance.object_from_world;
+      Ray local{m * vec4(ray.origin, 1), ray.t_min, m * vec4(ray.direction, 0), t_max};
+      Hit found;
+      if (!trace<F, any_hit>(*instance.object, local, found, cost)) return false;
+      if constexpr (any_hit) return true;
+      found.instance = instance.index;
+      return accept(found);
+    } else {
+      const typename Kind::Pack& pack = tree.packs<Kind>()[leaf.pack()];
+      LaneHits lanes;
+      Kind::template intersect<F>(pack, ray, t_min, t_max, lanes);
+      if (any_hit || !lanes.lanes) return lanes.lanes != 0;
+      const std::size_t lane = closest_lane(lanes.lanes, lanes.t, pack.primitive);
+      const vec2 uv = Kind::parameters(pack, lane, ray, lanes.t[lane]);
+      return accept(
+          {lanes.t[lane], uv.x, uv.y, pack.primitive[lane], kNoInstance, PrimitiveKinds::kind_of<Kind>});
+    }
+  });
 }
 
-/// As trace, for a ray that can meet nothing but these leaves; no boxes, no stack. `last` becomes the index
+/// As trace, for a ray that can hit nothing but these leaves; no boxes, no stack. `last` becomes the index
 /// of the one that hit is in.
 template <class F, bool any_hit>
 bool trace_leaves(const AccelTree& tree, std::span<const Waiting> leaves, const Ray& ray, Hit& hit,
@@ -125,13 +117,14 @@ bool trace_leaves(const AccelTree& tree, std::span<const Waiting> leaves, const 
   float t_max = ray.t_max;
   if constexpr (!any_hit) hit.t = std::numeric_limits<float>::quiet_NaN(); // see precedes
   bool found = false;
-  NoCost free_of_charge;
+  NoCost no_cost;
   for (std::size_t i = leaves.size(); i-- > 0 && leaves[i].key <= t_max;) {
     const ChildRef leaf = leaves[i].value;
-    if (leaf.kind() == LeafKind::triangles) {
-      if (!meet_triangles<F, any_hit>(tree.triangles[leaf.index()], sheared, t_min, t_max, hit)) continue;
+    if (leaf.kind() == PrimitiveKind::triangle) {
+      if (!intersect_triangles<F, any_hit>(tree.triangles()[leaf.pack()], sheared, t_min, t_max, hit))
+        continue;
     } else {
-      if (!meet_other_leaf<F, any_hit>(tree, ray, leaf, t_min, t_max, hit, free_of_charge)) continue;
+      if (!intersect_other_leaf<F, any_hit>(tree, ray, leaf, t_min, t_max, hit, no_cost)) continue;
       if constexpr (!any_hit) t_max = hit.t;
     }
     found = true, last = i;
@@ -140,7 +133,7 @@ bool trace_leaves(const AccelTree& tree, std::span<const Waiting> leaves, const 
   return found;
 }
 
-/// As trace, for a ray that can meet nothing but these subtrees of the tree, of which there is one at least.
+/// As trace, for a ray that can hit nothing but these subtrees of the tree, of which there is one at least.
 /// The last is entered first.
 template <class F, bool any_hit, class Cost>
 [[gnu::always_inline]] inline bool trace_subtrees(const AccelTree& tree, std::span<const Waiting> subtrees,
@@ -150,16 +143,16 @@ template <class F, bool any_hit, class Cost>
   float t_max = ray.t_max;
   if constexpr (!any_hit) hit.t = std::numeric_limits<float>::quiet_NaN(); // see precedes
   bool found = false;
-  auto meet_leaf = [&](ChildRef leaf) __attribute__((always_inline)) {
+  auto intersect_leaf = [&](ChildRef leaf) __attribute__((always_inline)) {
     ++cost.packs;
-    if (leaf.kind() == LeafKind::triangles) [[likely]]
-      return meet_triangles<F, any_hit>(tree.triangles[leaf.index()], sheared, t_min, t_max, hit);
-    if (!meet_other_leaf<F, any_hit>(tree, ray, leaf, t_min, t_max, hit, cost)) return false;
+    if (leaf.kind() == PrimitiveKind::triangle) [[likely]]
+      return intersect_triangles<F, any_hit>(tree.triangles()[leaf.pack()], sheared, t_min, t_max, hit);
+    if (!intersect_other_leaf<F, any_hit>(tree, ray, leaf, t_min, t_max, hit, cost)) return false;
     if constexpr (!any_hit) t_max = hit.t;
     return true;
   };
 
-  // NaN would meet every box and walk the whole tree.
+  // NaN would hit every box and walk the whole tree.
   vec3 sum = ray.origin + ray.direction;
   if (!std::isfinite(sum.x + sum.y + sum.z)) return false;
   const BoxRay<F> box_ray(ray, tree);
@@ -171,13 +164,13 @@ template <class F, bool any_hit, class Cost>
   ChildRef current = subtrees.back().value;
   for (;;) {
     if (current.is_leaf()) {
-      if (meet_leaf(current)) {
+      if (intersect_leaf(current)) {
         if constexpr (any_hit) return true;
         found = true;
       }
     } else {
       ++cost.nodes;
-      const WideNode& node = nodes[current.index()];
+      const WideNode& node = nodes[current.node()];
       F t_enter;
       simd::LaneMask lanes = box_ray.intersect(node, t_min8, F(t_max), t_enter);
       if (lanes) {
@@ -202,7 +195,7 @@ template <class F, bool any_hit, class Cost>
   }
 }
 
-/// Whether the ray meets something in (max(ray.t_min, 0), ray.t_max). For the closest hit, sets
+/// Whether the ray hits something in (max(ray.t_min, 0), ray.t_max). For the closest hit, sets
 /// hit. `cost` is a TraversalCost or a NoCost.
 template <class F, bool any_hit, class Cost>
 bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost) {
@@ -212,8 +205,8 @@ bool trace(const AccelTree& tree, const Ray& ray, Hit& hit, Cost& cost) {
 
 template <class F, bool any_hit>
 bool trace(const AccelTree& tree, const Ray& ray, Hit& hit) {
-  NoCost free_of_charge;
-  return trace<F, any_hit>(tree, ray, hit, free_of_charge);
+  NoCost no_cost;
+  return trace<F, any_hit>(tree, ray, hit, no_cost);
 }
 
 } // namespace candela::accel_detail

@@ -9,7 +9,7 @@ namespace candela::accel_detail {
 
 /// A leaf to fill: which refs make up the pack.
 struct LeafRange {
-  LeafKind kind;
+  PrimitiveKind kind;
   std::uint32_t pack; ///< index among those of its kind
   std::uint32_t begin, count;
 };
@@ -18,10 +18,13 @@ struct WideBvh {
   ChildRef root;
   HugeVector<WideNode> nodes; ///< in preorder
   HugeVector<LeafRange> leaves;
-  std::array<std::uint32_t, 4> packs{}; ///< how many of each LeafKind
+  PerKind<std::uint32_t> packs{}; ///< how many of each kind
   int depth = 0;
   double sah_cost = 0;
 };
+
+/// Throws Error (ExitCode::limit) where a ChildRef could not name all packs of a kind.
+void require_addressable(const PerKind<std::uint32_t>& packs);
 
 /// By the plan of a high build; a fast one has none, and always the child of largest area is opened. Throws
 /// Cancelled.

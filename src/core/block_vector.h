@@ -9,7 +9,7 @@
 namespace candela {
 
 /// Elements lie in blocks. A std::vector that grows copies all that it has, which takes long enough, for
-/// hundreds of millions, to be noticed by who waits for a reader to stop.
+/// hundreds of millions, to delay the cancellation of a reader.
 template <class T>
 class BlockVector {
   static_assert(std::is_trivially_copyable_v<T>);

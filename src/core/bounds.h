@@ -6,7 +6,7 @@
 
 namespace candela {
 
-/// Beyond, products of coordinates overflow, and so did what the file that holds them meant: primitives there
+/// Beyond, products of coordinates overflow, and so did the values that the file means: primitives there
 /// are left out of pictures.
 inline constexpr float kMaxCoordinate = 1e12f;
 

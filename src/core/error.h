@@ -1,5 +1,5 @@
 #pragma once
-// The one exception type. What it says is meant for the person at the keyboard:
+// The one exception type. Its text is for the user:
 // `file:line:col: element: cause: remedy`.
 
 #include <stdexcept>

@@ -75,8 +75,8 @@ bool in_range(const FieldInfo& field, double value) {
          stored(value) <= stored(field.maximum);
 }
 
-/// A limit as people write it: 1e9 rather than 1000000000, which nobody counts. Integers do not take that
-/// form.
+/// A limit as people write it: 1e9 rather than 1000000000, whose zeros are hard to count. Integers do not
+/// take that form.
 std::string bound_text(double bound, bool integer) {
   if (!integer && std::abs(bound) >= 1e6) {
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(bound))));

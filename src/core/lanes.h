@@ -3,7 +3,7 @@
 //
 // A loop is vectorised if its arrays are plain floats or integers of 32 bits and of one object or __restrict,
 // if it calls nothing that is not inlined, and if it has no branches: so items are chosen and written to
-// arrays first, treated all alike in the loop, and looked at afterwards.
+// arrays first, treated the same in the loop, and looked at afterwards.
 
 #include "core/math.h"
 

@@ -33,7 +33,7 @@ constexpr float sqr(float x) { return x * x; }
 inline float safe_sqrt(float x) { return std::sqrt(std::max(x, 0.0f)); }
 inline float max_component(vec3 v) { return std::max(std::max(v.x, v.y), v.z); }
 inline float min_component(vec3 v) { return std::min(std::min(v.x, v.y), v.z); }
-/// condition ? a : b without a branch, for conditions that nobody can predict.
+/// condition ? a : b without a branch, for unpredictable conditions.
 inline float select(bool condition, float a, float b) {
   auto mask = 0 - static_cast<std::uint32_t>(condition);
   return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) |

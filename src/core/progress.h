@@ -1,6 +1,5 @@
 #pragma once
-// How far long work has come, and the wish that it ends early: what the one who works and the one who waits
-// tell each other across threads.
+// Progress and cancellation of long work, shared by the thread that works and the thread that waits.
 
 #include <algorithm>
 #include <atomic>
@@ -19,10 +18,10 @@ struct Cancelled : std::exception {
 class Progress {
 public:
   Progress() = default;
-  /// Is told to end by this flag, too, which must outlive it (a signal handler may set no more than a flag).
+  /// Cancelled by this flag, too, which must outlive it (a signal handler may set no more than a flag).
   explicit Progress(const std::atomic<bool>& ends) : ends_(&ends) {}
 
-  /// Tells the work to end; that is for good.
+  /// Asks the work to end; this cannot be undone.
   void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
   bool cancelled() const {
     return cancelled_.load(std::memory_order_relaxed) ||
@@ -33,9 +32,9 @@ public:
     if (cancelled()) throw Cancelled();
   }
 
-  /// There is so much (more) to do.
+  /// Adds to the work to do.
   void expect(std::uint64_t work) { expected_.fetch_add(work, std::memory_order_relaxed); }
-  /// So much of it (more) is done.
+  /// Adds to the work done.
   void advance(std::uint64_t work) { done_.fetch_add(work, std::memory_order_relaxed); }
 
   /// What is done of what is known to be done in all, in [0, 1]; 0 while nothing is known. Never less than it
@@ -55,7 +54,7 @@ private:
   mutable std::atomic<double> most_{0}; ///< that share() has told
 };
 
-/// Asks `progress`, which may be null, in a loop's i-th turn; seldom enough that short turns do not notice.
+/// Checks `progress`, which may be null, in a loop's i-th iteration; seldom enough to cost nothing.
 inline void check_now_and_then(const Progress* progress, std::size_t i) {
   if (progress != nullptr && i % 16384 == 0) progress->check();
 }
@@ -76,7 +75,7 @@ public:
   void reach(double share) {
     whole_.check();
     const auto done = static_cast<std::uint64_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(work_));
-    if (done < done_ + work_ / 1024 + 1) return; // steps that nobody would see
+    if (done < done_ + work_ / 1024 + 1) return; // steps too small to see
     whole_.advance(done - done_);
     done_ = done;
   }

@@ -16,7 +16,7 @@ struct Ray {
 };
 
 /// Moves p, known to within +-p_error, along the geometric normal n to the side of w, just far enough that a
-/// ray from there towards w cannot meet the surface it leaves (pbrt-v4, section 6.8.6).
+/// ray from there towards w cannot hit the surface that it leaves (pbrt-v4, section 6.8.6).
 inline vec3 offset_ray_origin(vec3 p, vec3 p_error, vec3 n, vec3 w) {
   float d = glm::dot(glm::abs(n), p_error);
   float side = glm::dot(w, n) < 0 ? -d : d;

@@ -1,5 +1,5 @@
 #pragma once
-// Large values that are made often and shared for a while: the memory of one that nobody looks at any more
+// Large values that are made often and shared for a while: the memory of one that is no longer used
 // serves the next, since fresh pages cost more than what is written to them.
 
 #include <memory>

@@ -9,8 +9,8 @@
 
 namespace candela {
 
-/// Flags and a deadline. Asked often, from any thread: a few loads, and a look at the clock where time plays
-/// a part. It refers to its flags, which must outlive it.
+/// Flags and a deadline. Polled often, from any thread: a few loads, and the clock where there is a deadline.
+/// It refers to its flags, which must outlive it.
 class StopCondition {
 public:
   using Clock = std::chrono::steady_clock;
@@ -55,8 +55,8 @@ private:
   std::optional<Clock::time_point> deadline_;
 };
 
-/// One worker's look at a condition. It does not change its mind: work that was asked to stop in its middle
-/// is of no use, even where the flag is taken back.
+/// One worker's view of a condition. It latches: work that was asked to stop in its middle is of no use, even
+/// where the flag is cleared.
 class StopPoll {
 public:
   explicit StopPoll(const StopCondition& condition) : condition_(condition) {}

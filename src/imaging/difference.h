@@ -14,8 +14,8 @@ namespace candela {
 /// magnitude over single channels is relative_error (imaging/compare.h).
 double relative_difference(vec3 x, vec3 r);
 
-/// For t in [-1, 1], clipped: blue where it is negative, orange where it is positive, near black at 0; told
-/// apart by the colour-blind, too. NaN is the middle.
+/// For t in [-1, 1], clipped: blue where it is negative, orange where it is positive, near black at 0;
+/// distinguishable for the colour-blind. NaN is the middle.
 std::array<std::uint8_t, 3> map_signed_color(float t);
 
 /// RGBA of every pixel. Without a sign relative_error_picture's colours: magma by decades from 0.1 % to 100

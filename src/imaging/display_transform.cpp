@@ -28,15 +28,15 @@ struct Range {
 
 /// Of the values that are finite and, if asked for, positive: the percentiles over a regular subset, and the
 /// largest of all.
-struct Spread {
+struct Percentiles {
   float low = 0, high = 0, largest = 0;
 };
 
-Spread spread_of(std::span<const vec3> linear, bool only_positive) {
+Percentiles percentiles_of(std::span<const vec3> linear, bool only_positive) {
   const std::size_t stride = (linear.size() + kMaxSorted - 1) / kMaxSorted;
   std::vector<float> values;
   values.reserve(kMaxSorted);
-  Spread spread;
+  Percentiles spread;
   for (std::size_t i = 0; i < linear.size(); ++i) {
     const float v = value_of(linear[i]);
     if (!std::isfinite(v) || (only_positive && v <= 0)) continue;
@@ -57,7 +57,7 @@ Spread spread_of(std::span<const vec3> linear, bool only_positive) {
 
 Range automatic_range(std::span<const vec3> linear, View view, bool logarithmic) {
   if (view == View::light_share) return {0, 1};
-  const Spread spread = spread_of(linear, logarithmic || view == View::depth);
+  const Percentiles spread = percentiles_of(linear, logarithmic || view == View::depth);
   if (logarithmic) return {std::max(spread.low, spread.high * std::pow(10.0f, -kMaxDecades)), spread.high};
   if (view == View::depth) return {spread.low, spread.high};
   if (view == View::samples || view == View::nonfinite) return {0, spread.largest};

@@ -1,5 +1,5 @@
 #pragma once
-// How the brightness of a picture is spread, in stops.
+// The distribution of brightness in a picture, in stops.
 
 #include "core/math.h"
 

@@ -41,7 +41,7 @@ std::uint8_t srgb8_from_linear(float x);
 
 /// tone_mapped, then srgb8_from_linear, for every pixel. The output has 3 (4) bytes a pixel, alpha is 255.
 ///
-/// With display.dither the code is floor(255 s + u) instead, with a u that is spread evenly over (0, 1) from
+/// With display.dither the code is floor(255 s + u) instead, with a u that is uniform over (0, 1) from
 /// pixel to pixel: the mean over pixels of one value is that value, where rounding would make bands of a
 /// gradient. What is exactly a code (black, white, a flat area of 8 bits) stays that code, and no code is
 /// more than one from the rounded one. u is the same for a pixel's three channels, so that greys stay grey,

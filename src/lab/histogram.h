@@ -85,8 +85,8 @@ struct Histogram {
   double total = 0;             ///< draws
 
   double integral() const; ///< of `expected`: 1 where the density is one
-  /// Pearson's test of the counts against total * expected. Meant for independent draws: well-spread ones are
-  /// more even than chance, and their p-value is near 1.
+  /// Pearson's test of the counts against total * expected. Meant for independent draws: well-distributed
+  /// ones are more even than chance, and their p-value is near 1.
   ChiSquareResult chi_square() const;
 };
 

@@ -9,13 +9,13 @@ namespace {
 constexpr LessonInfo kLessons[] = {
     {"pi", "Pi by rejection",
      "The error of independent points falls as 1/sqrt(N): a digit more costs a hundred times the points. "
-     "Points that are spread well do better."},
+     "Well-distributed points do better."},
     {"solid-angle", "Solid angle of a disc",
      "One answer by four densities: the more samples hit and the closer the pdf follows the integrand, the "
      "smaller the standard deviation."},
     {"integral", "Integral of a function",
      "Where x is drawn as the function is high, f / pdf hardly varies; raise the cells and see the standard "
-     "deviation go. Smooth functions gain most from well-spread points."},
+     "deviation go. Smooth functions gain most from well-distributed points."},
     {"points", "Points of the samplers",
      "Count the points in each box of the grid: one in every elementary interval is what makes a (0,2)-net. "
      "Two dimensions that are not drawn together show how they are padded."},

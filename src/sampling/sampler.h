@@ -18,11 +18,11 @@ namespace candela {
 enum class Dimension : std::uint32_t {
   film,             ///< position within the pixel's filter
   lens,             ///< position on the aperture
-  light_position,   ///< which light next-event estimation asks, and where on it
+  light_position,   ///< which light next-event estimation samples, and where on it
   bsdf_lobe,        ///< which lobe scatters
   bsdf_direction,   ///< where to
   russian_roulette, ///< whether the path goes on
-  opacity,          ///< whether light meets a partly transparent surface
+  opacity,          ///< whether a ray hits a partly transparent surface
   count
 };
 
@@ -49,7 +49,7 @@ constexpr std::uint32_t permute(std::uint32_t index, std::uint32_t length, std::
 }
 
 /// Every value is in [0, 1). Pixels (but for blue_noise), bounces, dimensions and indices are independent of
-/// each other; within one of them the samples 0, 1, 2, … of a pixel are spread as the type says, and any
+/// each other; within one of them the samples 0, 1, 2, … of a pixel are distributed as the type says, and any
 /// number of them may be used. A run is aligned if its first number is a multiple of its length. One
 /// dimension is a point's x.
 ///
@@ -88,8 +88,8 @@ public:
   std::uint32_t sample() const { return sample_; }
 
   /// For the k-th of `count` branches that a sample divides into: the branches of samples 0, 1, 2, ... are
-  /// the samples k + count * 0, 1, 2, ... of one sequence, as well spread as that. Numbers drawn before, for
-  /// one purpose and at one bounce, must not be drawn again.
+  /// the samples k + count * 0, 1, 2, ... of one sequence, as well distributed as that. Numbers drawn before,
+  /// for one purpose and at one bounce, must not be drawn again.
   Sampler branch(std::uint32_t k, std::uint32_t count) const {
     Sampler s = *this;
     if (type_ == SamplerType::independent)
@@ -101,7 +101,7 @@ public:
 
   void set_bounce(std::uint32_t bounce) { bounce_key_ = hash_combine(pixel_key_, bounce); }
 
-  /// The `index`-th of repeated draws for one purpose (surfaces that are looked through). A dimension is
+  /// The `index`-th of repeated draws for one purpose (surfaces that a ray passes by opacity). A dimension is
   /// drawn in 1-D or in 2-D, not both: they are not independent.
   float get_1d(Dimension dimension, std::uint32_t index = 0) const {
     if (type_ != SamplerType::stratified) return get_2d(dimension, index).x;

@@ -2,7 +2,7 @@
 
 namespace candela {
 
-/// How the random numbers of a pixel are spread (sampling/sampler.h).
+/// How the random numbers of a pixel are distributed (sampling/sampler.h).
 enum class SamplerType : int {
   independent, ///< each number on its own
   stratified,  ///< jittered cells, permuted per pixel and dimension

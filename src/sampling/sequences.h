@@ -155,7 +155,7 @@ inline vec2 sobol_point(std::uint64_t key, std::uint32_t reversed_sample, std::u
 /// Multi-Jittered Sample Sequences"), built one point at a time as Helmer, Christensen & Kensler 2021 show:
 /// each point goes to the half of its interval, in x and in y, that an earlier point left empty, and to a
 /// random place there. For the second coordinate the same recursion runs on the Sobol' matrix's index.
-/// Nothing but the quality of its randomness sets it apart from sobol_point(): a hash per node, not per bit.
+/// Nothing but the quality of its randomness differs from sobol_point(): a hash per node, not per bit.
 vec2 pmj02_point(std::uint64_t key, std::uint32_t sample, std::uint32_t reversed_sample);
 
 /// Second component a of the lattice's generating vector (1, a). Two figures of merit are good for each of
@@ -187,8 +187,8 @@ inline constexpr std::uint32_t kBlueNoiseTile = 16;
 /// error lies at high frequencies, where the eye, a filter or a denoiser loses it. That it takes runs of
 /// points along a hierarchical order of pixels is from Ahmed & Wonka 2020, "Screen-Space Blue-Noise Diffusion
 /// of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels"; they give each pixel 2^L numbers of
-/// its own, so that L must be known and only all of the 2^L samples are well spread over neighbours. Here,
-/// pixel m (along the Morton curve) and sample s are digits of the same point over GF(2),
+/// its own, so that L must be known and only all of the 2^L samples are well distributed over neighbours.
+/// Here, pixel m (along the Morton curve) and sample s are digits of the same point over GF(2),
 ///     x = s + T m,   y = P s + T P m   (bits reversed),
 /// with P Sobol's second matrix and T Pascal's triangle transposed, and Owen-scrambled for the whole tile.
 /// For each pixel this is the (0,2)-sequence of sobol_point, only shifted. At one sample, the 4^k pixels of

@@ -1,6 +1,6 @@
 #pragma once
 // Maps of the unit square [0, 1)^2 to the domains that rendering samples, each with its density. They keep
-// areas and are continuous but for seams, so that well-spread points stay well spread.
+// areas and are continuous but for seams, so that well-distributed points stay well distributed.
 
 #include "core/math.h"
 

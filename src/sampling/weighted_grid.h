@@ -9,8 +9,8 @@
 
 namespace candela {
 
-/// Indices 0..n-1 by inversion of their distribution function, which keeps well-spread numbers well spread;
-/// a table of where to begin (Chen & Asau 1974, "On Generating Random Variates from an Empirical
+/// Indices 0..n-1 by inversion of their distribution function, which keeps well-distributed numbers well
+/// distributed; a table of where to begin (Chen & Asau 1974, "On Generating Random Variates from an Empirical
 /// Distribution") makes that a few steps on average.
 class GuidedTable {
 public:

@@ -259,7 +259,7 @@ TEST(AccelInstance, KeepsTAndIndices) {
   // Moving an Accel moves neither its tree nor those of its objects.
   Accel moved = std::move(accel), moved_object = std::move(inner);
   EXPECT_TRUE(moved.occluded({{0, 0, 0}, 0, {0, 0, 2}, kInfinity}));
-  EXPECT_EQ(moved.stats().instances, 2u);
+  EXPECT_EQ(moved.stats().count(PrimitiveKind::instance), 2u);
 }
 
 TEST(AccelInstance, RefusesNesting) {

@@ -43,7 +43,12 @@ struct TestScene {
   std::vector<InstanceGeometry> instances;
   std::vector<const TestScene*> objects; ///< what the instances show
 
-  AccelInput input() const { return {vertices, triangles, spheres, discs, instances}; }
+  AccelInput input() const {
+    AccelInput all;
+    all.vertices = vertices, all.triangles = triangles;
+    all.spheres = spheres, all.discs = discs, all.instances = instances;
+    return all;
+  }
   void add_triangle(vec3 a, vec3 b, vec3 c) {
     auto i = static_cast<std::uint32_t>(vertices.size());
     vertices.insert(vertices.end(), {a, b, c});

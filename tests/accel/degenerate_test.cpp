@@ -51,7 +51,7 @@ TEST(AccelDegenerate, LeavesOutWhatCannotBeHit) {
   scene.add_triangle({-1, -1, 0}, {3, -1, 0}, {-1, 3, 0});
   accel = Accel::build(scene.input());
   EXPECT_EQ(accel.stats().skipped, bad);
-  EXPECT_EQ(accel.stats().triangles, 1u);
+  EXPECT_EQ(accel.stats().count(PrimitiveKind::triangle), 1u);
   auto hit = accel.intersect(kRay);
   ASSERT_TRUE(hit);
   EXPECT_EQ(hit->primitive, scene.triangles.size() - 1);
@@ -68,7 +68,7 @@ TEST(AccelDegenerate, CopiesInOnePlace) {
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->t, 5);
     EXPECT_LE(accel.stats().depth, 12);
-    EXPECT_EQ(accel.stats().triangles, 5000u);
+    EXPECT_EQ(accel.stats().count(PrimitiveKind::triangle), 5000u);
   }
 }
 

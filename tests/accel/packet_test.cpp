@@ -1,4 +1,4 @@
-// What a ray meets depends neither on the rays that it is traced with nor on the tree.
+// What a ray hits depends neither on the rays that it is traced with nor on the tree.
 
 #include "accel/packet.h"
 #include "brute_force.h"
@@ -47,7 +47,7 @@ protected:
   testing::ScopedTrace trace{__FILE__, __LINE__, seed_note()};
 };
 
-/// Where primitives are met at the same t, as they are along shared edges, at shared vertices and where they
+/// Where primitives are hit at the same t, as they are along shared edges, at shared vertices and where they
 /// coincide.
 TEST_F(AccelTies, ATreeDoesNotShow) {
   TestScene scene;
@@ -99,9 +99,9 @@ TEST_F(AccelTies, TheFirstOfCoincidentPrimitivesIsFound) {
 }
 
 /// The ways in which rays can be neighbours, or not.
-enum class Company { pinhole, lens, parallel, to_a_light, just_far_enough, diagonal, one, none };
+enum class Bundle { pinhole, lens, parallel, to_a_light, just_far_enough, diagonal, one, none };
 
-std::vector<Ray> make_packet(Company company, const TestScene& scene, Random& random, std::size_t count) {
+std::vector<Ray> make_packet(Bundle bundle, const TestScene& scene, Random& random, std::size_t count) {
   const vec3 eye = random.in_cube(3), target = some_vertex(scene, random);
   const float spread = std::exp(random.uniform(-7, 0));
   std::vector<Ray> rays;
@@ -109,23 +109,23 @@ std::vector<Ray> make_packet(Company company, const TestScene& scene, Random& ra
     const vec3 near_eye = eye + spread * random.in_cube(), near_target = target + spread * random.in_cube();
     // Every fourth goes to a vertex: through edges, along flat boxes.
     const vec3 there = i % 4 ? near_target : target;
-    switch (company) {
-    case Company::pinhole: rays.push_back({eye, 0, glm::normalize(there - eye), kInfinity}); break;
-    case Company::lens: rays.push_back({near_eye, 0, glm::normalize(there - near_eye), kInfinity}); break;
-    case Company::parallel: rays.push_back({near_eye, 0, target - eye, kInfinity}); break;
-    case Company::to_a_light: rays.push_back({near_target, 0, eye - near_target, 1}); break;
-    case Company::just_far_enough: { // or from just too far on
+    switch (bundle) {
+    case Bundle::pinhole: rays.push_back({eye, 0, glm::normalize(there - eye), kInfinity}); break;
+    case Bundle::lens: rays.push_back({near_eye, 0, glm::normalize(there - near_eye), kInfinity}); break;
+    case Bundle::parallel: rays.push_back({near_eye, 0, target - eye, kInfinity}); break;
+    case Bundle::to_a_light: rays.push_back({near_target, 0, eye - near_target, 1}); break;
+    case Bundle::just_far_enough: { // or from just too far on
       const float t_min = i % 3 ? 0 : 1 + 0x1p-21f;
       rays.push_back({near_eye, t_min, target - near_eye, 1 + 0x1p-20f});
       break;
     }
-    case Company::diagonal: { // some advance most along one axis, some along another
+    case Bundle::diagonal: { // some advance most along one axis, some along another
       const vec3 from = target + glm::length(eye) * vec3(1, 1 + random.uniform(-1, 1) * 0x1p-22f, 0.3f);
       rays.push_back({from, 0, target - from, kInfinity});
       break;
     }
-    case Company::one: rays.assign({{eye, 0, target - eye, kInfinity}}); break;
-    case Company::none: {
+    case Bundle::one: rays.assign({{eye, 0, target - eye, kInfinity}}); break;
+    case Bundle::none: {
       const vec3 from = random.in_cube(3);
       rays.push_back({from, random.uniform(), some_vertex(scene, random) - from, random.uniform(0, 3)});
     }
@@ -164,12 +164,12 @@ protected:
   }
   void check(const TestScene& scene, int packets) {
     const Accel accel = Accel::build(scene.input());
-    for (Company company : {Company::pinhole, Company::lens, Company::parallel, Company::to_a_light,
-                            Company::just_far_enough, Company::diagonal, Company::one, Company::none})
+    for (Bundle bundle : {Bundle::pinhole, Bundle::lens, Bundle::parallel, Bundle::to_a_light,
+                          Bundle::just_far_enough, Bundle::diagonal, Bundle::one, Bundle::none})
       for (int i = 0; i < packets; ++i) {
-        SCOPED_TRACE(testing::Message() << "company " << static_cast<int>(company) << ", packet " << i);
+        SCOPED_TRACE(testing::Message() << "bundle " << static_cast<int>(bundle) << ", packet " << i);
         const std::size_t count = 1 + random.below(3 * accel_detail::kPacketSize);
-        ASSERT_NO_FATAL_FAILURE(expect_same_as_alone(accel, make_packet(company, scene, random, count)));
+        ASSERT_NO_FATAL_FAILURE(expect_same_as_alone(accel, make_packet(bundle, scene, random, count)));
       }
     EXPECT_GT(hits, static_cast<std::size_t>(packets) * 60);
     EXPECT_GT(misses, static_cast<std::size_t>(packets) * 10);
@@ -182,7 +182,7 @@ TEST_F(AccelPackets, OverAMesh) {
   check(scene, 300);
 }
 
-/// All boxes are flat, all planes and edges where rays are aimed.
+/// All boxes are flat, all planes and edges where rays point.
 TEST_F(AccelPackets, OverFlatWalls) {
   TestScene scene;
   add_grid(scene, 30, [](vec2) { return 0.3f; });
@@ -208,7 +208,7 @@ TEST_F(AccelPackets, FarAway) {
   for (vec3& p : scene.vertices) p += vec3(5000, -3000, 9000);
   const Accel accel = Accel::build(scene.input());
   for (int i = 0; i < 1000; ++i) {
-    std::vector<Ray> rays = make_packet(i % 2 ? Company::pinhole : Company::one, scene, random, 50);
+    std::vector<Ray> rays = make_packet(i % 2 ? Bundle::pinhole : Bundle::one, scene, random, 50);
     for (Ray& ray : rays) {
       const vec3 eye = vec3(5000, -3000, 9000) + vec3(0.1f, 0.2f, 3);
       ray.direction = some_vertex(scene, random) * (i % 3 ? 1.0f : 1 + 0x1p-22f) - eye;
@@ -264,9 +264,9 @@ TEST_F(AccelPackets, BoxesAreMetAsByRaysAlone) {
   add_grid(scene, 30, [](vec2 p) { return p.x > 0 ? 0.3f : 0.1f * p.y; });
   const Accel accel = Accel::build(scene.input());
   const AccelTree& tree = *AccelAccess::tree(accel);
-  int met = 0, missed = 0;
+  int lanes_hit = 0, missed = 0;
   for (int i = 0; i < 100000; ++i) {
-    std::vector<Ray> rays = make_packet(i % 2 ? Company::lens : Company::none, scene, random, 8);
+    std::vector<Ray> rays = make_packet(i % 2 ? Bundle::lens : Bundle::none, scene, random, 8);
     for (Ray& ray : rays)
       if (random.below(8) == 0) ray.direction[static_cast<int>(random.below(3))] = i % 3 ? 0.0f : -0.0f;
     std::vector<const Ray*> pointers;
@@ -283,10 +283,10 @@ TEST_F(AccelPackets, BoxesAreMetAsByRaysAlone) {
       const simd::LaneMask alone =
           accel_detail::BoxRay<F>(rays[k], tree).intersect(node, F(0.0f), F(t_max), unused);
       ASSERT_EQ(together >> k & 1, alone >> child & 1) << i << ", ray " << k;
-      ++(alone >> child & 1 ? met : missed);
+      ++(alone >> child & 1 ? lanes_hit : missed);
     }
   }
-  EXPECT_GT(met, 1000);
+  EXPECT_GT(lanes_hit, 1000);
   EXPECT_GT(missed, 1000);
 }
 
@@ -299,7 +299,7 @@ TEST_F(AccelPackets, EntryPointsStandForTheirBoxes) {
   const AccelTree& tree = *AccelAccess::tree(accel);
   std::size_t subtrees = 0, leaves = 0;
   for (int i = 0; i < 2000; ++i) {
-    const std::vector<Ray> rays = make_packet(Company::pinhole, scene, random, 64);
+    const std::vector<Ray> rays = make_packet(Bundle::pinhole, scene, random, 64);
     std::vector<const Ray*> pointers;
     for (const Ray& ray : rays) pointers.push_back(&ray);
     accel_detail::PacketRays<F> lanes;
@@ -333,7 +333,7 @@ TEST_F(AccelPackets, WithRaysOfNonsense) {
   for (float odd : {nan, kInfinity, -kInfinity, 3e38f, -3e38f, 1e-38f, 0.0f, -1.0f})
     for (int component = 0; component < 6; ++component)
       for (std::size_t at : {0u, 7u, 63u}) {
-        std::vector<Ray> rays = make_packet(Company::pinhole, scene, random, 64);
+        std::vector<Ray> rays = make_packet(Bundle::pinhole, scene, random, 64);
         (component < 3 ? rays[at].origin : rays[at].direction)[component % 3] = odd;
         ASSERT_NO_FATAL_FAILURE(expect_same_as_alone(accel, rays));
       }

@@ -1,6 +1,6 @@
 // Both implementations of eight floats, lane by lane against plain floats, and traversal with either.
 
-#include "accel/simd.h"
+#include "accel/simd/simd.h"
 #include "accel/traversal.h"
 #include "brute_force.h"
 
@@ -200,9 +200,9 @@ TEST(AccelDeterminism, AnyNumberOfThreadsBuildsTheSameTree) {
       Accel other = Accel::build(scene.input(), quality);
       const AccelTree& b = *AccelAccess::tree(other);
       EXPECT_TRUE(a.nodes == b.nodes) << threads;
-      EXPECT_TRUE(a.triangles == b.triangles) << threads;
-      EXPECT_TRUE(a.spheres == b.spheres) << threads;
-      EXPECT_TRUE(a.discs == b.discs) << threads;
+      EXPECT_TRUE(a.triangles() == b.triangles()) << threads;
+      EXPECT_TRUE(a.packs<primitives::Spheres>() == b.packs<primitives::Spheres>()) << threads;
+      EXPECT_TRUE(a.packs<primitives::Discs>() == b.packs<primitives::Discs>()) << threads;
       EXPECT_TRUE(a.root == b.root);
     }
   }
@@ -227,7 +227,7 @@ TEST(AccelStatistics, AMeshTakesFewBytes) {
     }
   for (BuildQuality quality : {BuildQuality::fast, BuildQuality::high}) {
     Accel accel = Accel::build(scene.input(), quality);
-    EXPECT_EQ(accel.stats().triangles, scene.triangles.size());
+    EXPECT_EQ(accel.stats().count(PrimitiveKind::triangle), scene.triangles.size());
     EXPECT_LE(accel.memory_bytes(), 64 * scene.triangles.size());
   }
 }
@@ -238,12 +238,13 @@ TEST(AccelStatistics, AddUp) {
   for (const Accel* accel : {&high, &fast}) {
     AccelStats stats = accel->stats();
     const AccelTree& tree = *AccelAccess::tree(*accel);
-    EXPECT_EQ(stats.triangles, 1000u);
-    EXPECT_EQ(stats.spheres, 100u);
-    EXPECT_EQ(stats.discs, 100u);
-    EXPECT_EQ(stats.leaves, tree.triangles.size() + tree.spheres.size() + tree.discs.size());
+    EXPECT_EQ(stats.count(PrimitiveKind::triangle), 1000u);
+    EXPECT_EQ(stats.count(PrimitiveKind::sphere), 100u);
+    EXPECT_EQ(stats.count(PrimitiveKind::disc), 100u);
+    EXPECT_EQ(stats.leaves, tree.triangles().size() + tree.packs<primitives::Spheres>().size() +
+                                tree.packs<primitives::Discs>().size());
     EXPECT_EQ(accel->memory_bytes(), stats.bytes);
-    EXPECT_GT(stats.bytes, stats.triangles * 40);
+    EXPECT_GT(stats.bytes, stats.count(PrimitiveKind::triangle) * 40);
     EXPECT_GT(stats.depth, 1);
   }
   // What the dynamic programming is for.

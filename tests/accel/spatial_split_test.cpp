@@ -1,4 +1,4 @@
-// Triangles that are named on both sides of a split.
+// Triangles that are referenced on both sides of a split.
 
 #include "accel/collapse_plan.h"
 #include "accel/spatial_split.h"
@@ -14,7 +14,7 @@ using namespace candela::accel_detail;
 using namespace candela::test;
 
 /// Small things everywhere, and a few large triangles across all of it.
-TestScene hall(Random& random, int small, int large) {
+TestScene room_scene(Random& random, int small, int large) {
   TestScene scene;
   for (int i = 0; i < small + large; ++i) {
     const float size = i < small ? 0.02f : 1.0f;
@@ -39,7 +39,7 @@ glm::dvec3 point_on(const std::array<vec3, 3>& p, Random& random) {
 BuildRef ref_of(const TestScene& scene, std::uint32_t index) {
   Bounds3 b;
   for (vec3 p : corners(scene, index)) b.grow(p);
-  return BuildRef::make(b, index, LeafKind::triangles);
+  return BuildRef::make(b, index, PrimitiveKind::triangle);
 }
 
 bool holds(const BuildBox& box, glm::dvec3 p) {
@@ -57,7 +57,7 @@ bool lies_in(const BuildBox& inner, const BuildBox& outer) {
 TEST(SpatialSplit, PartsHoldWhatLiesOnTheirSide) {
   Random random(fresh_seed());
   SCOPED_TRACE(seed_note());
-  const TestScene scene = hall(random, 0, 200);
+  const TestScene scene = room_scene(random, 0, 200);
   const AccelInput input = scene.input();
   const Cutter cutter(input);
   int both = 0, one = 0;
@@ -86,7 +86,7 @@ TEST(SpatialSplit, PartsHoldWhatLiesOnTheirSide) {
 }
 
 // An edge whose crossing rounds by 9 eps: the exact one is in both parts all the same.
-TEST(SpatialSplit, RoundingOfACrossingIsPaidFor) {
+TEST(SpatialSplit, RoundingOfACrossingIsCovered) {
   const vec3 v(-0x1.006deep-1f, -0x1.078d06p+0f, 0), w(0x1.07b084p-1f, 0x1.076d1p+0f, 0);
   const float plane = 0x1.0441dp-1f;
   TestScene scene;
@@ -147,7 +147,7 @@ protected:
 };
 
 TEST_F(SpatialSplitTree, EveryPointOfEveryTriangleIsInABox) {
-  const TestScene scene = hall(random, 4000, 40);
+  const TestScene scene = room_scene(random, 4000, 40);
   const BinaryBvh bvh = build(scene);
   walk(bvh, bvh.root());
   EXPECT_GT(found.size(), scene.triangles.size() + 20) << "triangles are doubled";
@@ -164,7 +164,7 @@ TEST_F(SpatialSplitTree, EveryPointOfEveryTriangleIsInABox) {
 }
 
 TEST_F(SpatialSplitTree, RaysHitWhatAllTrianglesSay) {
-  const TestScene scene = hall(random, 4000, 40);
+  const TestScene scene = room_scene(random, 4000, 40);
   const Accel accel = Accel::build(scene.input());
   RayCount seen;
   for (int i = 0; i < 3000; ++i) {

@@ -133,7 +133,7 @@ void expect_exact_edges(Random& random) {
     Hit hit;
     float t_max = kInfinity;
     bool expected = positive != negative;
-    ASSERT_EQ((accel_detail::meet_triangles<F, false>(pack, ray, 0, t_max, hit)), expected)
+    ASSERT_EQ((accel_detail::intersect_triangles<F, false>(pack, ray, 0, t_max, hit)), expected)
         << ax << " " << ay << ", " << bx << " " << by << ", " << cx << " " << cy;
     ++(expected ? hits : misses);
     if (expected) {

@@ -149,7 +149,8 @@ std::vector<std::pair<double, std::size_t>> measure(const std::vector<Ray>& rays
 
 /// Times builds in turn, that all meet the same disturbances.
 void report_build(const BenchScene& scene, int threads, const Options& options) {
-  AccelInput input{.vertices = scene.mesh.vertices, .triangles = scene.mesh.triangles};
+  AccelInput input;
+  input.vertices = scene.mesh.vertices, input.triangles = scene.mesh.triangles;
   const int repeats = options.quick ? 1 : scene.mesh.triangles.size() < 200000 ? 20 : 5;
   omp_set_num_threads(threads);
   struct Timed {
@@ -242,15 +243,17 @@ void print_rates(const Rated& rated, const std::vector<std::pair<double, std::si
 }
 
 void report_rays(const BenchScene& scene, const Options& options) {
-  AccelInput input{.vertices = scene.mesh.vertices, .triangles = scene.mesh.triangles};
+  AccelInput input;
+  input.vertices = scene.mesh.vertices, input.triangles = scene.mesh.triangles;
   omp_set_num_threads(options.threads);
   Accel accel = Accel::build(input);
   AccelStats stats = accel.stats();
+  const std::size_t triangles = stats.count(PrimitiveKind::triangle);
   fmt::print("{:8} {} triangles, {} nodes, {} leaves ({:.2f} triangles), depth {}, cost {:.2f}, {:.1f} "
              "bytes/triangle\n",
-             scene.name, stats.triangles, stats.nodes, stats.leaves,
-             static_cast<double>(stats.triangles) / static_cast<double>(stats.leaves), stats.depth,
-             stats.sah_cost, static_cast<double>(stats.bytes) / static_cast<double>(stats.triangles));
+             scene.name, triangles, stats.nodes, stats.leaves,
+             static_cast<double>(triangles) / static_cast<double>(stats.leaves), stats.depth, stats.sah_cost,
+             static_cast<double>(stats.bytes) / static_cast<double>(triangles));
   RaySets sets = make_rays(scene, accel, options.quick ? 128 : 384);
 #ifdef CANDELA_BENCH_EMBREE
   EmbreeScene medium(scene.mesh, RTC_BUILD_QUALITY_MEDIUM, options.threads);

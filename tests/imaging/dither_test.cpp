@@ -47,7 +47,7 @@ TEST(Dither, TheMeanOfAFlatPatchIsItsValue) {
 }
 
 TEST(Dither, SmallPatchesKeepTheMean) {
-  // 8 x 8 pixels anywhere: a band of that size is not to be seen. By chance it would be 0.5 / 8.
+  // 8 x 8 pixels anywhere: a band of that size is not to be seen. A random dither would give 0.5 / 8.
   constexpr int kWidth = 200, kHeight = 100;
   const float value = decoded(10.5);
   const auto rgb = mapped(std::vector<vec3>(kWidth * kHeight, vec3(value)), kWidth, true);

@@ -207,7 +207,7 @@ TEST(SequencesStatistical, ScramblingIsFair) {
   }
 }
 
-/// A shuffle worth the name makes any order equally likely; of few elements all orders can be counted.
+/// A good shuffle makes any order equally likely; of few elements all orders can be counted.
 TEST(SequencesStatistical, PermuteIsFair) {
   SCOPED_TRACE(seed_note());
   constexpr int kDraws = 240000;

@@ -1,5 +1,5 @@
 #pragma once
-// The hand of `candela bench interactive`: a flight and edits that are the same in every run.
+// The script of `candela bench interactive`: a flight and edits that are the same in every run.
 
 #include "core/math.h"
 #include "scene/document.h"

@@ -19,7 +19,7 @@ namespace {
 constexpr double kInputSeconds = 1 / 60.0; // from one movement of a flight to the next
 constexpr double kLook = 0.25;             // how often to look at what wakes nobody
 /// Between a picture and the next input, which then comes at any moment between two frames of a window that
-/// refreshes slowly: these steps, modulo 1, fill the spread evenly (the golden ratio's sequence).
+/// refreshes slowly: these steps, modulo 1, fill the range evenly (the golden ratio's sequence).
 constexpr double kRest = 0.05, kRestSpread = 0.1;
 constexpr double kGoldenStep = 0.6180339887498949;
 
@@ -53,7 +53,7 @@ double load_average() {
 
 } // namespace
 
-Spread spread_of(std::span<const double> values) {
+Percentiles percentiles_of(std::span<const double> values) {
   return {values.size(), percentile(values, 50), percentile(values, 90), percentile(values, 99)};
 }
 
@@ -194,7 +194,7 @@ double InteractionBench::play(Viewer& viewer) {
         [kind = kind(), step = step_](Document& document) { apply_edit(kind, step, document); }});
   ++step_;
   resting_ = false;
-  due_ = std::max(due_ + kInputSeconds, now); // a hand waits for nobody, but does not hurry either
+  due_ = std::max(due_ + kInputSeconds, now); // a user does not wait, but does not hurry either
   return flies ? kInputSeconds : kLook;
 }
 
@@ -209,9 +209,9 @@ void InteractionBench::collect(const InteractionMeter& meter) {
     full.push_back(i.full_ms);
     pass_ms_.push_back(i.pass_ms);
   }
-  out.first = spread_of(first);
-  if (kind() != InputKind::flight) out.full = spread_of(full);
-  out.coarseness = spread_of(coarseness);
+  out.first = percentiles_of(first);
+  if (kind() != InputKind::flight) out.full = percentiles_of(full);
+  out.coarseness = percentiles_of(coarseness);
   result_.kinds.push_back(out);
   collect_frames(meter);
 }
@@ -225,8 +225,8 @@ void InteractionBench::collect_frames(const InteractionMeter& meter) {
 }
 
 void InteractionBench::finish() {
-  result_.frames = spread_of(frame_ms_);
-  result_.full_pass_ms = spread_of(pass_ms_).median;
+  result_.frames = percentiles_of(frame_ms_);
+  result_.full_pass_ms = percentiles_of(pass_ms_).median;
   result_.load[1] = load_average();
   bar_.finish(fmt::format("measured for {:.0f} s", elapsed()));
 }

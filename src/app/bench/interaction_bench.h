@@ -2,7 +2,7 @@
 // `candela bench interactive`: what is measured while the script's hand works in a viewer.
 //
 // Latency is from Viewer::handle() of the input to the end of the buffer swap (glFinish() without a window)
-// that shows its picture. CPU time is told apart by thread: the render thread and its OpenMP team, the thread
+// that shows its picture. CPU time is counted by thread: the render thread and its OpenMP workers, the thread
 // that tone-maps, the UI's thread, by their CLOCK_THREAD_CPUTIME_ID; the rest of the process
 // (CLOCK_PROCESS_CPUTIME_ID) is mostly the software OpenGL driver. What other programs took meanwhile is
 // /proc/stat less that.
@@ -26,16 +26,16 @@ struct BenchPlan {
 };
 
 /// Median and tails of measured values.
-struct Spread {
+struct Percentiles {
   std::size_t count = 0;
   double median = 0, p90 = 0, p99 = 0;
 };
-Spread spread_of(std::span<const double> values);
+Percentiles percentiles_of(std::span<const double> values);
 
 /// CPU seconds, and the wall time in which they were spent.
 struct CpuBill {
   double wall = 0;
-  double render = 0;  ///< the render thread and its team
+  double render = 0;  ///< the render thread and its workers
   double present = 0; ///< tone mapping
   double window = 0;  ///< the UI's thread
   double process = 0; ///< all of this program
@@ -49,8 +49,8 @@ struct CpuBill {
 
 struct KindResult {
   InputKind kind{};
-  Spread first, full; ///< ms from input to picture; a flight has no full ones
-  Spread coarseness;  ///< side of the first picture's blocks, pixels
+  Percentiles first, full; ///< ms from input to picture; a flight has no full ones
+  Percentiles coarseness;  ///< side of the first picture's blocks, pixels
 };
 
 struct Target {
@@ -66,14 +66,14 @@ struct BenchResult {
   int threads = 0;
   double full_pass_ms = 0; ///< median wall time of the first sample of every pixel
   std::vector<KindResult> kinds;
-  Spread frames;                 ///< ms of the window's frames while rendering
+  Percentiles frames;            ///< ms of the window's frames while rendering
   std::size_t dropped = 0;       ///< of them
   CpuBill refining;              ///< without any input
   double samples_per_second = 0; ///< camera paths a second of wall time, meanwhile
   std::array<double, 2> load{};  ///< average of the last minute, before and after
 };
 
-/// The targets, judged.
+/// Whether the targets are met.
 std::vector<Target> targets(const BenchResult& result);
 
 /// The driver: warms up, plays each kind of input, refines, ends.

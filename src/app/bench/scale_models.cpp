@@ -162,7 +162,8 @@ double mountain_height(glm::dvec2 p, double spacing) {
     slope += n.gradient * (0.7 * share);
     sum += share * strength * n.value / (1 + glm::dot(slope, slope));
     strength *= 0.5;
-    q = 2.0 * glm::dvec2(0.8 * q.x + 0.6 * q.y, 0.8 * q.y - 0.6 * q.x); // turned, lest the lattices show
+    q = 2.0 *
+        glm::dvec2(0.8 * q.x + 0.6 * q.y, 0.8 * q.y - 0.6 * q.x); // turned, so that the lattices do not show
   }
   const double valley = smooth_step(1.5, 13, glm::length(p));
   return (1.2 + 5 * valley) * sum + 2.2 * valley;

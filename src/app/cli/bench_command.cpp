@@ -23,7 +23,7 @@ constexpr ivec2 kSize{1280, 720}, kShortSize{160, 120};
 constexpr int kShortRepeats = 2;
 constexpr double kShortSeconds = 0.3;
 
-ordered_json spread_json(const Spread& s) {
+ordered_json percentiles_json(const Percentiles& s) {
   return {{"count", s.count}, {"median", s.median}, {"p90", s.p90}, {"p99", s.p99}};
 }
 
@@ -38,11 +38,11 @@ ordered_json result_json(const BenchResult& r, const std::string& surface, const
   j["full_pass_ms"] = r.full_pass_ms;
   for (const KindResult& k : r.kinds) {
     ordered_json& kind = j["inputs"][to_string(k.kind)];
-    kind["first_image_ms"] = spread_json(k.first);
-    if (k.full.count > 0) kind["full_image_ms"] = spread_json(k.full);
-    kind["first_image_block"] = spread_json(k.coarseness);
+    kind["first_image_ms"] = percentiles_json(k.first);
+    if (k.full.count > 0) kind["full_image_ms"] = percentiles_json(k.full);
+    kind["first_image_block"] = percentiles_json(k.coarseness);
   }
-  j["window_frames_ms"] = spread_json(r.frames);
+  j["window_frames_ms"] = percentiles_json(r.frames);
   j["frames_dropped"] = r.dropped;
   const CpuBill& b = r.refining;
   j["refining"] = {{"wall_s", b.wall},
@@ -72,8 +72,8 @@ std::string table_text(const BenchResult& r, const std::string& surface, const s
   };
   print("{}, {} x {}, {}, {} threads, load {:.1f} to {:.1f}\n\n", scene, r.size.x, r.size.y, surface,
         r.threads, r.load[0], r.load[1]);
-  print("{:<28}{:>10}{:>10}{:>10}\n", "input latency, ms", "median", "90 %", "99 %");
-  auto row = [&](const std::string& name, const Spread& s) {
+  print("{:<28}{:>10}{:>10}{:>10}\n", "ms from hand to picture", "median", "90 %", "99 %");
+  auto row = [&](const std::string& name, const Percentiles& s) {
     print("{:<28}{:>10.1f}{:>10.1f}{:>10.1f}\n", name, s.median, s.p90, s.p99);
   };
   for (const KindResult& k : r.kinds) {

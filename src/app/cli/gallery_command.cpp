@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kQuickSize = 2;
 constexpr float kQuickSpp = 1.0f / 16;
-/// The reference's random numbers are others than the panels', or their errors would be alike.
+/// The reference's random numbers are others than the panels', or their errors would be correlated.
 constexpr int kReferenceSeed = 0x5eed;
 
 struct Rendering {

@@ -56,7 +56,7 @@ Plot error_plot(const std::array<ErrorTrack, 2>& tracks, bool over_seconds, std:
   plot.x = {over_seconds ? "seconds" : "samples a pixel", true};
   plot.y = {std::string(error_name), true};
   for (std::size_t i = 0; i < 2; ++i) {
-    PlotSeries series{std::string(1, side_letter(static_cast<int>(i))), {}, false};
+    PlotSeries series{std::string(1, variant_letter(static_cast<int>(i))), {}, false};
     for (const ErrorTrack::Point& p : tracks[i].points)
       series.points.push_back({over_seconds ? p.seconds : p.samples, p.error});
     plot.series.push_back(std::move(series));

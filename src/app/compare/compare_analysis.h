@@ -23,7 +23,7 @@ struct CompareAnalysis {
   float range = 0.1f;
 
   // The answer.
-  std::array<std::optional<double>, 2> rel_mse, noise; ///< as in CompareSide
+  std::array<std::optional<double>, 2> rel_mse, noise; ///< as in CompareVariant
   std::shared_ptr<DisplayImage> picture;               ///< the difference
   double seconds = 0;                                  ///< that it took
 
@@ -48,7 +48,7 @@ struct ErrorTrack {
   void add(const Frame& frame, double error);
 };
 
-/// Both sides' errors over their samples or seconds, and how independent samples would fall.
+/// Both variants' errors over their samples or seconds, and how independent samples would fall.
 Plot error_plot(const std::array<ErrorTrack, 2>& tracks, bool over_seconds, std::string_view error_name);
 
 } // namespace candela

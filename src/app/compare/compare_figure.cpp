@@ -57,7 +57,7 @@ std::string write_comparison_figure(const ComparisonFigure& source, const std::s
     const DisplayImage& shown = *source.pictures[i];
     widest = std::max(widest, shown.width);
     FigurePanel panel;
-    panel.title = fmt::format("{}{}{}", side_letter(static_cast<int>(i)),
+    panel.title = fmt::format("{}{}{}", variant_letter(static_cast<int>(i)),
                               source.labels[i].empty() ? "" : ": ", source.labels[i]);
     panel.caption.push_back(fmt::format("{} spp, {:.2f} s", shown.frame->spp, shown.frame->render_seconds));
     if (fits_reference(source, shown))
@@ -69,13 +69,14 @@ std::string write_comparison_figure(const ComparisonFigure& source, const std::s
     figure.panels.push_back(std::move(panel));
   }
   const auto& [a, b] = source.pictures;
-  const std::size_t side = source.difference == DifferenceOf::b_and_reference ? 1 : 0;
-  if (source.difference != DifferenceOf::a_and_b && source.pictures[side] &&
-      fits_reference(source, *source.pictures[side])) {
-    const Frame& frame = *source.pictures[side]->frame;
-    figure.panels.push_back(difference_panel(
-        source, frame.linear, source.reference->pixels,
-        fmt::format("{} and the reference", side_letter(static_cast<int>(side))), frame.width, frame.height));
+  const std::size_t variant = source.difference == DifferenceOf::b_and_reference ? 1 : 0;
+  if (source.difference != DifferenceOf::a_and_b && source.pictures[variant] &&
+      fits_reference(source, *source.pictures[variant])) {
+    const Frame& frame = *source.pictures[variant]->frame;
+    figure.panels.push_back(
+        difference_panel(source, frame.linear, source.reference->pixels,
+                         fmt::format("{} and the reference", variant_letter(static_cast<int>(variant))),
+                         frame.width, frame.height));
   } else if (a && b && a->width == b->width && a->height == b->height) {
     figure.panels.push_back(
         difference_panel(source, a->frame->linear, b->frame->linear, "A and B", a->width, a->height));

@@ -15,8 +15,8 @@ PixelRect zoomed(const PixelRect& region, ivec2 shape, int zoom, vec2 pan) {
 
 } // namespace
 
-int ComparePanes::side_at(vec2 position) const {
-  const Pane& b = sides[1];
+int ComparePanes::variant_at(vec2 position) const {
+  const Pane& b = variants[1];
   const bool inside =
       position.x >= static_cast<float>(b.clip.x) && position.x < static_cast<float>(b.clip.x + b.clip.width);
   return b.shown && inside ? 1 : 0;
@@ -34,26 +34,26 @@ ComparePanes compare_panes(const CompareState& state, const PixelRect& region, c
     const PixelRect rooms[] = {{region.x, region.y, half, region.height},
                                {region.x + half + kGap, region.y, half, region.height}};
     for (std::size_t i = 0; i < 2; ++i)
-      panes.sides[i] = {true, place(rooms[i], letterbox(rooms[i], shape)), rooms[i]};
+      panes.variants[i] = {true, place(rooms[i], letterbox(rooms[i], shape)), rooms[i]};
     return panes;
   }
   const PixelRect picture = place(region, whole);
-  panes.sides = {{{true, picture, region}, {true, picture, region}}};
+  panes.variants = {{{true, picture, region}, {true, picture, region}}};
   switch (state.layout) {
   case CompareLayout::side_by_side: break;
   case CompareLayout::wipe: {
     const int left = std::clamp(
         static_cast<int>(std::lround(state.divider * static_cast<float>(region.width))), 0, region.width);
     panes.divider = region.x + left;
-    panes.sides[0].clip.width = left;
-    panes.sides[1].clip.x += left;
-    panes.sides[1].clip.width -= left;
+    panes.variants[0].clip.width = left;
+    panes.variants[1].clip.x += left;
+    panes.variants[1].clip.width -= left;
     break;
   }
-  case CompareLayout::flip: panes.sides[state.flipped ? 0 : 1].shown = false; break;
+  case CompareLayout::flip: panes.variants[state.flipped ? 0 : 1].shown = false; break;
   case CompareLayout::difference:
     panes.difference = true;
-    panes.sides[1].shown = false;
+    panes.variants[1].shown = false;
     break;
   }
   return panes;

@@ -12,7 +12,7 @@ namespace candela {
 
 namespace {
 
-/// The reference's random numbers are others than those of the sides, or their errors would be alike.
+/// The reference's random numbers are others than those of the variants, or their errors would be correlated.
 constexpr int kReferenceSeed = 0x5eed;
 /// An analysis begins no sooner after the last one than this, and takes no more than this share of a core.
 constexpr double kAnalysisInterval = 0.05, kAnalysisShare = 0.1;
@@ -31,7 +31,7 @@ std::shared_ptr<const Frame> current_frame(const RenderSession& session) {
 
 bool same_size(const Frame& a, const Frame& b) { return a.width == b.width && a.height == b.height; }
 
-/// Everything but the camera's own: what both sides must share to be compared.
+/// Everything but the camera's own: what both variants must share to be compared.
 void share(const CompareState& state, const Document& from, Document& to) {
   to.settings.film.width = from.settings.film.width;
   to.settings.film.height = from.settings.film.height;
@@ -164,16 +164,16 @@ std::string CompareMode::update(CompareState& state, const Edited& edited) {
 
 // The reference.
 
-void CompareMode::freeze_reference(const CompareState& state, const Edited& edited, int side) {
-  const auto frame = current_frame(session(state, edited, side));
+void CompareMode::freeze_reference(const CompareState& state, const Edited& edited, int variant) {
+  const auto frame = current_frame(session(state, edited, variant));
   if (!frame) {
     message_ = "There is no whole picture yet: wait for its first sample";
     return;
   }
   clear_reference();
   reference_ = {std::make_shared<Image>(Image{frame->width, frame->height, frame->linear}),
-                fmt::format("{} at {} spp", side_letter(side), frame->spp),
-                document(state, edited, side).scene.camera};
+                fmt::format("{} at {} spp", variant_letter(variant), frame->spp),
+                document(state, edited, variant).scene.camera};
 }
 
 void CompareMode::render_reference(const CompareState& state, const Edited& edited) {
@@ -313,14 +313,14 @@ void CompareMode::take(const CompareAnalysis& analysis) {
 
 void CompareMode::describe(CompareState& state, const Edited& edited) const {
   for (int i = 0; i < 2; ++i) {
-    CompareSide& side = state.sides[static_cast<std::size_t>(i)];
-    side.status = session(state, edited, i).status();
-    side.label = distinct_settings(document(state, edited, i), document(state, edited, 1 - i), 3);
+    CompareVariant& variant = state.variants[static_cast<std::size_t>(i)];
+    variant.status = session(state, edited, i).status();
+    variant.label = distinct_settings(document(state, edited, i), document(state, edited, 1 - i), 3);
     const Measured& measured = measured_[static_cast<std::size_t>(i)];
     // Of the newest accumulation: edits that restart nothing, as of the exposure, make no new one.
-    const bool is_current = measured.generation >= side.status.restarting;
-    side.rel_mse = is_current && state.has_reference ? measured.rel_mse : std::nullopt;
-    side.noise = is_current ? measured.noise : std::nullopt;
+    const bool is_current = measured.generation >= variant.status.restarting;
+    variant.rel_mse = is_current && state.has_reference ? measured.rel_mse : std::nullopt;
+    variant.noise = is_current ? measured.noise : std::nullopt;
   }
   state.plot = error_plot(state.has_reference ? rel_mse_tracks_ : noise_tracks_, state.over_seconds,
                           state.has_reference ? "relMSE" : kNoiseName);
@@ -331,7 +331,7 @@ void CompareMode::export_figure(const CompareState& state, const Edited& edited,
   for (int i = 0; i < 2; ++i) {
     const auto index = static_cast<std::size_t>(i);
     source.pictures[index] = session(state, edited, i).display();
-    source.labels[index] = state.sides[index].label;
+    source.labels[index] = state.variants[index].label;
   }
   if (state.has_reference) source.reference = reference_->image;
   source.difference = state.difference;

@@ -22,7 +22,7 @@ public:
     std::function<void()> wake;
     std::filesystem::path folder; ///< of exported figures
   };
-  /// What of the Viewer changes places when the other side is edited.
+  /// What of the Viewer changes places when the other variant is edited.
   struct Edited {
     Document& document;
     std::unique_ptr<RenderSession>& session;
@@ -33,16 +33,16 @@ public:
 
   /// The edited Document becomes A; B begins as its copy.
   void begin(CompareState& state, const Edited& edited, EditState now);
-  /// The edited side stays, the other one goes.
+  /// The edited variant stays, the other one goes.
   void end(CompareState& state, const Edited& edited);
-  /// The panels change the other side from now on.
+  /// The panels change the other variant from now on.
   void exchange(CompareState& state, const Edited& edited);
-  /// The other side becomes a copy of this document.
+  /// The other variant becomes a copy of this document.
   void replace_other(const Document& document);
   const Document& other_document() const { return other_.document; }
   const RenderSession* other_session() const { return other_.session.get(); }
 
-  /// What both share (film size, display, when to stop, perhaps the camera) goes over to the other side.
+  /// What both share (film size, display, when to stop, perhaps the camera) goes over to the other variant.
   void follow(const CompareState& state, const Document& edited);
   void pause(bool paused);
   void step();
@@ -55,7 +55,7 @@ public:
   bool busy() const;
 
   // The reference. It is left as soon as another view or another size of film is rendered.
-  void freeze_reference(const CompareState& state, const Edited& edited, int side);
+  void freeze_reference(const CompareState& state, const Edited& edited, int variant);
   void render_reference(const CompareState& state, const Edited& edited);
   void load_reference(const std::string& path);
   void clear_reference();
@@ -84,11 +84,11 @@ private:
     EditHistory history;
   };
 
-  const RenderSession& session(const CompareState& state, const Edited& edited, int side) const {
-    return side == state.edited ? *edited.session : *other_.session;
+  const RenderSession& session(const CompareState& state, const Edited& edited, int variant) const {
+    return variant == state.edited ? *edited.session : *other_.session;
   }
-  const Document& document(const CompareState& state, const Edited& edited, int side) const {
-    return side == state.edited ? edited.document : other_.document;
+  const Document& document(const CompareState& state, const Edited& edited, int variant) const {
+    return variant == state.edited ? edited.document : other_.document;
   }
   void dispose(std::unique_ptr<RenderSession> session);
   /// Why the reference does not fit what is rendered; empty if it does.
@@ -110,7 +110,7 @@ private:
   std::shared_ptr<const DisplayImage> difference_;
   std::array<std::shared_ptr<const Frame>, 2> analysed_; ///< frames of the last analysis
   int analyses_ = 0;                                     ///< under way
-  /// What an analysis is asked for beside its frames: a change of it is worth another one.
+  /// What an analysis is asked for beside its frames: a change of it asks for another one.
   using Key = std::tuple<CompareLayout, DifferenceOf, bool, float, std::shared_ptr<const Image>>;
   Key key_of(const CompareState& state) const {
     return {state.layout, state.difference, state.with_sign, state.range,

@@ -14,10 +14,10 @@ namespace candela {
 enum class CompareLayout : int { side_by_side, wipe, flip, difference };
 enum class DifferenceOf : int { a_and_b, a_and_reference, b_and_reference };
 
-/// What CompareSide::noise is called wherever it shows: no variance knows of a bias.
+/// What CompareVariant::noise is called wherever it shows: no variance knows of a bias.
 inline constexpr std::string_view kNoiseName = "noise (est. relMSE)";
 
-struct CompareSide {
+struct CompareVariant {
   SessionStatus status;
   std::string label;             ///< what it has that the other has not: "sampler.type=halton"
   std::optional<double> rel_mse; ///< against the reference
@@ -27,7 +27,7 @@ struct CompareSide {
 struct CompareState {
   bool active = false;
   bool panel_was_active = false; ///< in the frame before: the panel unfolds when a comparison begins
-  int edited = 0;                ///< the side that the panels change; 0: A, 1: B
+  int edited = 0;                ///< the variant that the panels change; 0: A, 1: B
   CompareLayout layout = CompareLayout::side_by_side;
   bool equal_time = false;  ///< both render for the same time; else the same samples
   bool share_camera = true; ///< flying moves both
@@ -43,7 +43,7 @@ struct CompareState {
   std::string reference_path; ///< as typed
 
   // What there is to see.
-  std::array<CompareSide, 2> sides;
+  std::array<CompareVariant, 2> variants;
   std::string reference; ///< in words: "none", "rendering, 12 of 1024 spp", "A at 512 spp"
   bool has_reference = false;
   bool rendering_reference = false;
@@ -51,9 +51,9 @@ struct CompareState {
 
   // Requests to the Viewer.
   bool toggle_requested = false;
-  std::optional<int> edit_requested;   ///< a side
-  std::optional<int> copy_requested;   ///< the side to copy from
-  std::optional<int> freeze_requested; ///< the side whose picture becomes the reference
+  std::optional<int> edit_requested;   ///< a variant
+  std::optional<int> copy_requested;   ///< the variant to copy from
+  std::optional<int> freeze_requested; ///< the variant whose picture becomes the reference
   bool render_reference_requested = false;
   bool load_reference_requested = false;
   bool clear_reference_requested = false;
@@ -65,10 +65,10 @@ constexpr CompareLayout next_layout(CompareLayout layout) {
 }
 
 /// 'A' or 'B'.
-constexpr char side_letter(int side) { return side == 0 ? 'A' : 'B'; }
+constexpr char variant_letter(int variant) { return variant == 0 ? 'A' : 'B'; }
 
-/// The settings that `document` has and `other` has not, as KEY=VALUE; those that both sides of a comparison
-/// share (camera, film size, display, stop) are left out. At most `most`, the rest is counted.
+/// The settings that `document` has and `other` has not, as KEY=VALUE; those that both variants of a
+/// comparison share (camera, film size, display, stop) are left out. At most `most`, the rest is counted.
 std::string distinct_settings(const Document& document, const Document& other, std::size_t most);
 
 } // namespace candela

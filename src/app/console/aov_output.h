@@ -9,7 +9,7 @@
 
 namespace candela {
 
-/// One of the views' names, or emitted, direct, indirect: parts of the radiance, kept apart by the same
+/// One of the views' names, or emitted, direct, indirect: parts of the radiance, separated by the same
 /// samples.
 struct Aov {
   std::string name;

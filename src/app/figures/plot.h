@@ -39,8 +39,8 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
-/// Okabe and Ito's colours ("Color Universal Design", 2008), told apart by the colour-blind, too; lighter on
-/// dark ground. Begins anew after seven.
+/// Okabe and Ito's colours ("Color Universal Design", 2008), distinguishable for the colour-blind, too;
+/// lighter on dark ground. Begins anew after seven.
 Rgb8 plot_color(std::size_t index, bool dark_ground = false);
 
 /// The part of an axis that is shown.

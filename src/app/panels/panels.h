@@ -21,6 +21,12 @@ void bookmarks_panel(Ui& ui, ViewerState& state);
 void scenes_panel(Ui& ui, ViewerState& state);
 void compare_panel(Ui& ui, ViewerState& state);
 
+/// The column's panels, from the top. A new one is a file, and its declaration and entry here.
+using Panel = void (*)(Ui& ui, ViewerState& state);
+inline constexpr Panel kPanels[] = {statistics_panel, compare_panel,   display_panel, inspect_panel,
+                                    camera_panel,     bookmarks_panel, render_panel,  objects_panel,
+                                    materials_panel,  lights_panel,    scenes_panel};
+
 /// What is written over the pictures of a comparison: what they are, the divider, the legend of a difference.
 void compare_overlay(Ui& ui, const CompareState& compare, const ComparePanes& panes,
                      bool difference_is_there);

@@ -30,23 +30,25 @@ int index_of(const T (&values)[N], T value) {
   return found == std::end(values) ? 0 : static_cast<int>(found - std::begin(values));
 }
 
-std::string progress_text(const CompareSide& side) {
-  return fmt::format("{} spp, {:.1f} s", side.status.spp, side.status.render_seconds);
+std::string progress_text(const CompareVariant& variant) {
+  return fmt::format("{} spp, {:.1f} s", variant.status.spp, variant.status.render_seconds);
 }
 
 /// With the best that is known of the error.
-std::string side_text(const CompareSide& side) {
-  if (side.rel_mse) return fmt::format("{}, relMSE {}", progress_text(side), plot_number(*side.rel_mse));
-  if (side.noise) return fmt::format("{}, {} {}", progress_text(side), kNoiseName, plot_number(*side.noise));
-  return progress_text(side);
+std::string variant_text(const CompareVariant& variant) {
+  if (variant.rel_mse)
+    return fmt::format("{}, relMSE {}", progress_text(variant), plot_number(*variant.rel_mse));
+  if (variant.noise)
+    return fmt::format("{}, {} {}", progress_text(variant), kNoiseName, plot_number(*variant.noise));
+  return progress_text(variant);
 }
 
-void error_readout(Ui& ui, const CompareState& compare, std::optional<double> CompareSide::*error,
+void error_readout(Ui& ui, const CompareState& compare, std::optional<double> CompareVariant::*error,
                    const char* label, std::string_view tip) {
   std::string text;
   for (std::size_t i = 0; i < 2; ++i) {
-    const std::optional<double> value = compare.sides[i].*error;
-    text += fmt::format("{}{} {}", i > 0 ? ", " : "", side_letter(static_cast<int>(i)),
+    const std::optional<double> value = compare.variants[i].*error;
+    text += fmt::format("{}{} {}", i > 0 ? ", " : "", variant_letter(static_cast<int>(i)),
                         value ? plot_number(*value) : "-");
   }
   ui.readout(label, text, tip);
@@ -54,14 +56,14 @@ void error_readout(Ui& ui, const CompareState& compare, std::optional<double> Co
 
 void error_readouts(Ui& ui, const CompareState& compare) {
   if (compare.has_reference)
-    error_readout(ui, compare, &CompareSide::rel_mse, "relMSE",
+    error_readout(ui, compare, &CompareVariant::rel_mse, "relMSE",
                   "The mean over pixels and channels of (x - r)^2 / (r^2 + 0.01), r being the reference: "
                   "noise and bias");
   error_readout(
-      ui, compare, &CompareSide::noise, kNoiseName.data(),
+      ui, compare, &CompareVariant::noise, kNoiseName.data(),
       "The relMSE that each picture's own variance lets expect: the mean over pixels and channels "
       "of variance / (mean^2 + 0.01).\nIt needs no reference, and therefore cannot see bias, such as "
-      "clamping's: relMSE can. Samplers that spread their samples well do better "
+      "clamping's: relMSE can. Samplers that distribute their samples well do better "
       "than it says.");
   ui.record("compare.noise");
 }
@@ -75,10 +77,11 @@ void layout_widgets(Ui& ui, CompareState& compare) {
   if (ui.choice("compare.zoom", "zoom", zoom, kZoomNames,
                 "Screen pixels a film pixel; drag with the right button to move.\nRestarts nothing."))
     compare.zoom = kZooms[zoom];
-  constexpr std::string_view kFair[] = {"equal samples", "equal time"};
+  constexpr std::string_view kFair[] = {"samples", "time"};
   int fair = compare.equal_time ? 1 : 0;
-  if (ui.choice("compare.fairness", "race", fair, kFair,
-                "What A and B have equally much of: the one ahead waits.\nRestarts nothing."))
+  if (ui.choice(
+          "compare.fairness", "equal", fair, kFair,
+          "What A and B have equally much of, samples or time: the one ahead waits.\nRestarts nothing."))
     compare.equal_time = fair == 1;
   constexpr std::string_view kCameras[] = {"shared", "each its own"};
   int camera = compare.share_camera ? 0 : 1;
@@ -116,12 +119,12 @@ void reference_widgets(Ui& ui, CompareState& compare) {
                        "Renders A's settings with other random numbers, beside A and B", third)) {
     compare.render_reference_requested = true;
   }
-  for (int side = 0; side < 2; ++side) {
+  for (int variant = 0; variant < 2; ++variant) {
     ImGui::SameLine(0, gap);
-    if (ui.button(side == 0 ? "compare.freeze_a" : "compare.freeze_b", side == 0 ? "Take A" : "Take B",
+    if (ui.button(variant == 0 ? "compare.freeze_a" : "compare.freeze_b", variant == 0 ? "Take A" : "Take B",
                   "The picture as it is now becomes the reference. It shares its noise: let it render first.",
                   third))
-      compare.freeze_requested = side;
+      compare.freeze_requested = variant;
   }
   const float load = 64 * ui.scale();
   bool open = ui.text("compare.reference_path", "file: EXR, HDR, PFM", compare.reference_path,
@@ -148,11 +151,12 @@ void compare_panel(Ui& ui, ViewerState& state) {
   }
   int edited = compare.edited;
   if (ui.choice("compare.edited", "panels change", edited, kSides,
-                "Which side's settings the panels show and change"))
+                "Which variant's settings the panels show and change"))
     compare.edit_requested = edited;
-  for (int side = 0; side < 2; ++side) {
-    const CompareSide& s = compare.sides[static_cast<std::size_t>(side)];
-    ui.readout(side == 0 ? "A" : "B", progress_text(s), s.label.empty() ? "No setting is its own" : s.label);
+  for (int variant = 0; variant < 2; ++variant) {
+    const CompareVariant& s = compare.variants[static_cast<std::size_t>(variant)];
+    ui.readout(variant == 0 ? "A" : "B", progress_text(s),
+               s.label.empty() ? "No setting is its own" : s.label);
   }
   error_readouts(ui, compare);
   const float third = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) / 3);
@@ -161,7 +165,7 @@ void compare_panel(Ui& ui, ViewerState& state) {
   if (ui.button("compare.copy_b", "B to A", "A's settings become B's", third)) compare.copy_requested = 1;
   ImGui::SameLine(0, gap);
   if (ui.button("compare.toggle", "Close",
-                fmt::format("Goes on with {} alone (C)", side_letter(compare.edited)), third))
+                fmt::format("Goes on with {} alone (C)", variant_letter(compare.edited)), third))
     compare.toggle_requested = true;
   layout_widgets(ui, compare);
   reference_widgets(ui, compare);
@@ -234,17 +238,18 @@ void compare_overlay(Ui& ui, const CompareState& compare, const ComparePanes& pa
     list.PopClipRect();
   };
   for (std::size_t i = 0; i < 2; ++i) {
-    const ComparePanes::Pane& pane = panes.sides[i];
+    const ComparePanes::Pane& pane = panes.variants[i];
     if (!pane.shown || panes.difference) continue;
-    const CompareSide& side = compare.sides[i];
-    const std::string text = fmt::format("{}{}{}\n{}", side_letter(static_cast<int>(i)),
-                                         side.label.empty() ? "" : ": ", side.label, side_text(side));
+    const CompareVariant& variant = compare.variants[i];
+    const std::string text =
+        fmt::format("{}{}{}\n{}", variant_letter(static_cast<int>(i)), variant.label.empty() ? "" : ": ",
+                    variant.label, variant_text(variant));
     clipped(pane.clip, [&] {
       plate(ui, list, {static_cast<float>(pane.clip.x) + pad, static_cast<float>(pane.clip.y) + pad},
             static_cast<float>(pane.clip.x + pane.clip.width) - pad, text);
     });
   }
-  const PixelRect& all = panes.sides[0].clip;
+  const PixelRect& all = panes.variants[0].clip;
   if (panes.difference) {
     clipped(all, [&] {
       if (difference_is_there)

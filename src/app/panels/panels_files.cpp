@@ -13,7 +13,7 @@ namespace candela {
 
 namespace {
 
-constexpr double kQuietSeconds = 0.3; // work that takes less is not worth a strip
+constexpr double kQuietSeconds = 0.3; // work that takes less is not shown
 
 const ImVec4 kRed(0.36f, 0.12f, 0.10f, 0.97f), kGrey(0.20f, 0.20f, 0.20f, 0.97f);
 
@@ -136,7 +136,7 @@ void working_bar(double share, float unit) {
 void message_strips(Ui& ui, ViewerState& state, vec2 position, vec2 room) {
   const float width = room.x, height = std::exchange(state.strips_bottom, 0.0f);
   if (width < 1) return;
-  // What is asked stands first, so that nothing that happens meanwhile moves it from under the hand.
+  // What is asked stands first, so that nothing that happens meanwhile moves it from under the pointer.
   Strips asking(ui, position, width);
   if (state.save_as_visible) asking.strip("##save", kGrey, [&] { save_as(ui, state, asking, width); });
   if (state.question != Question::none)

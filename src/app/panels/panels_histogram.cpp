@@ -67,8 +67,8 @@ void draw_ticks(ImDrawList& list, const Plot& plot, float unit) {
   }
 }
 
-/// The plot, and the exposure under the hand: the light moves with it. It takes the same room when there is
-/// nothing to plot (yet), so that nothing below jumps.
+/// The plot, and the exposure under the pointer: the light moves with it. It takes the same room when there
+/// is nothing to plot (yet), so that nothing below jumps.
 void histogram_plot(Ui& ui, ViewerState& state, const LogHistogram* histogram) {
   const float unit = ui.scale(), height = 96 * unit;
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -98,7 +98,7 @@ void histogram_plot(Ui& ui, ViewerState& state, const LogHistogram* histogram) {
   state.edited |= exposure != before;
 
   const DisplayTransform& shown = state.picture->transform;
-  // The picture may not be toned anew yet: what the hand has added since is added here.
+  // The picture may not be toned anew yet: what the user has added since is added here.
   const float stops = shown.tone.exposure + exposure - state.picture->display.exposure;
   const float grey = std::log2(kMiddleGrey) - stops;
   const auto largest = static_cast<float>(largest_count(*histogram));

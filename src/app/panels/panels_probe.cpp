@@ -170,7 +170,7 @@ void draw_focus_mark(Ui& ui, ViewerState& state, const PixelRect& picture, doubl
   if (mark && now > mark->until) mark.reset();
   if (!mark || !state.picture) return;
   const ivec2 film(state.picture->width, state.picture->height);
-  const auto at = CameraRays(state.document.scene.camera, film.x, film.y).project(mark->position);
+  const auto at = CameraView(state.document.scene.camera, film.x, film.y).project(mark->position);
   if (!at) return;
   const vec2 p = vec2(picture.x, picture.y) + *at * vec2(picture.width, picture.height) / vec2(film);
   const float unit = ui.scale(), arm = 9 * unit, gap = 3 * unit;
@@ -241,10 +241,10 @@ void legend_overlay(Ui& ui, const ViewerState& state, vec2 bottom_left) {
 void focus_rows(Ui& ui, ViewerState& state) {
   const Camera& camera = state.document.scene.camera;
   const FilmSettings& film = state.document.settings.film;
-  const CameraRays rays(camera, film.width, film.height);
+  const CameraView view(camera, film.width, film.height);
   std::string sharp = "everywhere (pinhole)";
-  if (rays.has_lens()) {
-    const CameraRays::Interval interval = rays.depth_of_field(sharp_blur(film.height));
+  if (view.has_lens()) {
+    const CameraView::Interval interval = view.depth_of_field(sharp_blur(film.height));
     const std::string near = plain_number(static_cast<double>(interval.near), 4);
     sharp = interval.far == kInfinity
                 ? fmt::format("from {}", near)

@@ -5,7 +5,7 @@
 #include "app/panels/viewer_state.h"
 #include "app/tools/viewport.h"
 #include "app/ui/widgets.h"
-#include "render/camera/camera_rays.h"
+#include "render/camera/camera_view.h"
 
 namespace candela {
 

@@ -50,7 +50,7 @@ struct ViewerState {
   SessionStatus status;
   std::shared_ptr<const DisplayImage> picture; ///< the one on the screen; null before the first
   std::string picture_of;                      ///< what it shows if not the document; empty: the document
-  MeterReadings meter;                         ///< from hand to picture, of late
+  MeterReadings meter;                         ///< recent input latency
   float frame_ms = 0;                          ///< CPU time that the last frame of the window took
   int loading = 0;                             ///< scenes being read
   std::string loading_path;
@@ -100,7 +100,7 @@ struct ViewerState {
     replace_path.clear();
     settle(ErrorCause::save);
   }
-  std::vector<std::string> recent; ///< scenes opened or saved of late
+  std::vector<std::string> recent; ///< recently opened or saved scenes
 
   bool paused = false;   ///< the user's wish; `status` tells what is
   std::string undo_name; ///< of the edit that would be undone; empty: none

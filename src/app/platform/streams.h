@@ -8,8 +8,8 @@
 namespace candela {
 
 /// Before anything else in main(). A standard stream that is closed gets a stand-in that cannot be read from
-/// or written to, lest the next file that is opened become it; SIGPIPE and SIGXFSZ no longer end the program,
-/// for a picture that is being rendered is worth more than the reader of its progress.
+/// or written to, or the next file that is opened would become it; SIGPIPE and SIGXFSZ no longer end the
+/// program, for a picture that is being rendered is more important than the reader of its progress.
 void prepare_streams();
 
 /// An output_error where stdout cannot be written to, as far as that can be known beforehand.

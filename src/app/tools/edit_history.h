@@ -33,8 +33,8 @@ struct EditState {
 /// What an edit did, in a few words for a tooltip: "path.max_depth", "Material red: roughness", "Camera".
 std::string edit_name(const EditState& before, const EditState& after);
 
-/// Whether two documents differ in something that is worth a file: the camera's pose is not (who looks around
-/// has edited nothing), nor is the film's size while it follows the window.
+/// Whether two documents differ in something that a file should keep: the camera's pose is not (who looks
+/// around has edited nothing), nor is the film's size while it follows the window.
 bool differs_from_file(const Document& document, const Document& saved, bool fit_film);
 
 class EditHistory {

@@ -1,5 +1,5 @@
 #pragma once
-// Flight: how a camera moves and turns under the hand. Pure functions of the camera.
+// Flight: how a camera moves and turns with the input. Pure functions of the camera.
 
 #include "core/bounds.h"
 #include "scene/scene_desc.h"
@@ -27,7 +27,7 @@ Camera moved_camera(const Camera& camera, vec3 distance);
 Camera turned_camera(const Camera& camera, float yaw, float pitch);
 
 /// Radians between two neighbouring pixels in the middle of an image of this height: a drag turns the camera
-/// by as much as it moved, whatever the lens. Of an orthographic view: as the target moves under the hand.
+/// by as much as it moved, whatever the lens. Of an orthographic view: as the target moves under the pointer.
 float radians_per_pixel(const Camera& camera, int film_height);
 
 /// What is wrong with the camera as a whole, though each value is in range (it looks nowhere, or along its up

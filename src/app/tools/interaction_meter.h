@@ -1,5 +1,5 @@
 #pragma once
-// From hand to picture: how long after an input its picture is on the screen, and what the window's frames
+// Input latency: how long after an input its picture is on the screen, and what the window's frames
 // cost meanwhile. The viewer tells it what it does; the Statistics panel and `candela bench` read it.
 
 #include "render/film/frame.h"

@@ -2,32 +2,22 @@
 
 namespace candela {
 
-namespace {
-
-Camera without_lens(Camera camera) {
-  camera.aperture_radius = 0;
-  return camera;
-}
-
-} // namespace
-
 ScreenProjection::ScreenProjection(const Camera& camera, const PixelRect& picture, ivec2 film)
-    : rays_(without_lens(camera), film.x, film.y), picture_(picture), film_(film),
-      right_(glm::normalize(glm::cross(rays_.forward(), camera.up))),
-      up_(glm::cross(right_, rays_.forward())), near_(1e-4f * glm::length(camera.target - camera.position)) {
+    : view_(camera, film.x, film.y), picture_(picture), film_(film),
+      near_(1e-4f * glm::length(camera.target - camera.position)) {
   picture_.width = std::max(picture_.width, 1);
   picture_.height = std::max(picture_.height, 1);
 }
 
 std::optional<vec2> ScreenProjection::point(vec3 world) const {
-  if (!(rays_.view_depth(world) >= near_)) return std::nullopt;
-  const std::optional<vec2> film = rays_.project(world);
+  if (!(view_.view_depth(world) >= near_)) return std::nullopt;
+  const std::optional<vec2> film = view_.project(world);
   if (!film) return std::nullopt;
   return vec2(picture_.x, picture_.y) + *film * vec2(picture_.width, picture_.height) / film_;
 }
 
 std::optional<std::pair<vec2, vec2>> ScreenProjection::segment(vec3 a, vec3 b) const {
-  const float depth_a = rays_.view_depth(a), depth_b = rays_.view_depth(b);
+  const float depth_a = view_.view_depth(a), depth_b = view_.view_depth(b);
   if (!(depth_a > near_) && !(depth_b > near_)) return std::nullopt;
   // A little before the near plane, so that rounding does not lose the cut's own end.
   const vec3 cut = glm::mix(a, b, (1.001f * near_ - depth_a) / (depth_b - depth_a));
@@ -36,7 +26,7 @@ std::optional<std::pair<vec2, vec2>> ScreenProjection::segment(vec3 a, vec3 b) c
   return std::pair(*from, *to);
 }
 
-Ray ScreenProjection::ray(vec2 screen) const { return rays_.ray(to_film(screen), vec2(0)); }
+Ray ScreenProjection::ray(vec2 screen) const { return view_.sight(to_film(screen)); }
 
 std::optional<vec2> ScreenProjection::film_position(vec2 screen) const {
   const vec2 at = to_film(screen + 0.5f); // the middle of the screen's pixel
@@ -45,7 +35,7 @@ std::optional<vec2> ScreenProjection::film_position(vec2 screen) const {
 }
 
 float ScreenProjection::units_per_pixel(vec3 world) const {
-  return rays_.pixel_footprint(std::max(rays_.view_depth(world), near_)).y * film_.y /
+  return view_.pixel_footprint(std::max(view_.view_depth(world), near_)).y * film_.y /
          static_cast<float>(picture_.height);
 }
 

@@ -2,7 +2,7 @@
 // Between the world and the screen: where a point is drawn, and what a mouse position looks along.
 
 #include "app/tools/viewport.h"
-#include "render/camera/camera_rays.h"
+#include "render/camera/camera_view.h"
 
 #include <optional>
 #include <utility>
@@ -24,9 +24,9 @@ public:
   std::optional<vec2> film_position(vec2 screen) const;
   /// Scene units that a pixel of the screen spans at the depth of a point.
   float units_per_pixel(vec3 world) const;
-  vec3 forward() const { return rays_.forward(); }
-  vec3 right() const { return right_; }
-  vec3 up() const { return up_; }
+  vec3 forward() const { return view_.forward(); }
+  vec3 right() const { return view_.right(); }
+  vec3 up() const { return view_.up(); }
   const PixelRect& picture() const { return picture_; }
 
 private:
@@ -34,10 +34,9 @@ private:
     return (screen - vec2(picture_.x, picture_.y)) * film_ / vec2(picture_.width, picture_.height);
   }
 
-  CameraRays rays_;
+  CameraView view_;
   PixelRect picture_;
   vec2 film_;
-  vec3 right_, up_;
   float near_; ///< what is closer along the view axis is not drawn
 };
 

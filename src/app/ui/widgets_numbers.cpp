@@ -19,7 +19,7 @@ namespace {
 
 /// Upper end of a logarithmic slider whose row goes on for ever; typed values may be larger.
 constexpr double kLogSliderEnd = 1000;
-/// A range that a slider of some 200 pixels can still be aimed on.
+/// A range that a slider of some 200 pixels can still be set with.
 constexpr double kSliderRange = 512;
 
 /// A percent sign would be taken for a conversion.

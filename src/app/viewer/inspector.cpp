@@ -130,9 +130,9 @@ void Inspector::ask_for_depths(const RenderSession& session) {
 
 void Inspector::paint_focus_plane(const Camera& camera, ivec2 film) {
   const DepthMap& map = *depths_;
-  const CameraRays rays(camera, film.x, film.y);
-  const float focus = rays.focus_distance();
-  const CameraRays::Interval sharp = rays.depth_of_field(sharp_blur(film.y));
+  const CameraView view(camera, film.x, film.y);
+  const float focus = view.focus_distance();
+  const CameraView::Interval sharp = view.depth_of_field(sharp_blur(film.y));
   using Texel = std::array<std::uint8_t, 4>;
   constexpr Texel kNone{0, 0, 0, 0}, kSharp{60, 220, 255, 70}, kPlane{60, 220, 255, 230};
   constexpr float kSameSurface = 0.05f; // of the focus: a larger step of depth is an edge
@@ -140,7 +140,7 @@ void Inspector::paint_focus_plane(const Camera& camera, ivec2 film) {
   const auto width = static_cast<std::size_t>(map.width);
   for (std::size_t i = 0; i < map.depth.size(); ++i) {
     const float z = map.depth[i];
-    if (rays.has_lens() && z >= sharp.near && z <= sharp.far) texels[i] = kSharp;
+    if (view.has_lens() && z >= sharp.near && z <= sharp.far) texels[i] = kSharp;
     auto crosses = [&](std::size_t j) {
       const float other = map.depth[j];
       return (z - focus) * (other - focus) <= 0 && std::abs(z - other) < kSameSurface * focus;

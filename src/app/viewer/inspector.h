@@ -1,6 +1,6 @@
 #pragma once
-// What the hand learns about the picture: what lies under the mouse, how the brightness is spread, what is in
-// focus. Whatever takes longer than a ray is done on a thread of its own.
+// What the user learns about the picture: what lies under the mouse, the distribution of brightness, what is
+// in focus. Whatever takes longer than a ray is done on a thread of its own.
 
 #include "app/panels/viewer_state.h"
 #include "app/platform/event.h"

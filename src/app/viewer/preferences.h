@@ -1,5 +1,5 @@
 #pragma once
-// What the window remembers from one day to the next: its size, its layout, the files of late.
+// What the window keeps between runs: its size, its layout, recent files.
 
 #include "core/math.h"
 

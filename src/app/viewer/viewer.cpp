@@ -228,7 +228,7 @@ void Viewer::keep_history() {
 /// Says whether the picture on the screen is one of something else: of the scene before while the new one is
 /// read in, built and rendered for the first time, or of what was before an edit that takes long or failed.
 void Viewer::describe_picture() {
-  constexpr double kQuietSeconds = 0.5; // what takes less is not worth a word
+  constexpr double kQuietSeconds = 0.5; // what takes less is not reported
   state_.picture_of.clear();
   if (!state_.picture) return;
   const std::uint64_t generation = state_.picture->frame->generation;

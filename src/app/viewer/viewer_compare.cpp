@@ -10,7 +10,7 @@ namespace candela {
 namespace {
 
 constexpr float kDividerReach = 8; // pixels at scale 1 from which the divider can be taken
-constexpr double kFlipHold = 0.25; // a key that is held longer shows the other side only so long
+constexpr double kFlipHold = 0.25; // a key that is held longer shows the other variant only so long
 constexpr int kRight = 1;          // of ImGui's buttons
 
 } // namespace
@@ -46,7 +46,7 @@ void Viewer::serve_compare_requests() {
   if (compare.toggle_requested) {
     if (compare.active) {
       compare_.end(compare, edited);
-      notify(fmt::format("Going on with {} alone", side_letter(compare.edited)));
+      notify(fmt::format("Going on with {} alone", variant_letter(compare.edited)));
     } else {
       compare_.begin(compare, edited, edit_state());
       compare_.set_region(sent_region_);
@@ -77,7 +77,7 @@ void Viewer::serve_compare_requests() {
   compare.freeze_requested.reset();
 }
 
-/// What is not submitted yet goes to the side that it was meant for.
+/// What is not submitted yet goes to the variant that it was meant for.
 void Viewer::exchange_sides() {
   submit();
   compare_.exchange(state_.compare, {state_.document, session_, history_});
@@ -85,7 +85,7 @@ void Viewer::exchange_sides() {
   other_viewport_.show(compare_.other_session()->display());
   state_.picture = viewport_.shown();
   state_.status = session_->status();
-  scene_generation_ = 0; // both sides show this scene, each by its own count
+  scene_generation_ = 0; // both variants show this scene, each by its own count
 }
 
 /// Whether the mouse moves the divider or the zoomed pictures, and so nothing else.
@@ -113,7 +113,7 @@ bool Viewer::use_mouse_on_comparison() {
 void Viewer::draw_comparison() {
   const ComparePanes panes = compare_panes();
   for (int i = 0; i < 2; ++i) {
-    const ComparePanes::Pane& pane = panes.sides[static_cast<std::size_t>(i)];
+    const ComparePanes::Pane& pane = panes.variants[static_cast<std::size_t>(i)];
     if (!pane.shown || pane.clip.width <= 0 || pane.clip.height <= 0) continue;
     scissor(pane.clip);
     Viewport& viewport = panes.difference             ? difference_viewport_

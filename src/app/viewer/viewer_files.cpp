@@ -42,7 +42,7 @@ std::shared_ptr<const Panorama> panorama_without_scene(const std::string& path,
       (ending == ".png" || ending == ".exr") && holds_picture_state(path))
     return nullptr;
   WarningList corrections(
-      std::move(progress)); // of values that no light has: nothing that the user could mend
+      std::move(progress)); // of values that no light has: nothing that the user could repair
   return read_panorama(std::span(&path, 1), corrections);
 }
 

@@ -96,7 +96,7 @@ PixelRect Viewer::picture_rect() const {
   if (!state_.compare.active) return single_picture_rect();
   const ComparePanes panes = compare_panes();
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  return panes.sides[static_cast<std::size_t>(panes.side_at({mouse.x, mouse.y}))].picture;
+  return panes.variants[static_cast<std::size_t>(panes.variant_at({mouse.x, mouse.y}))].picture;
 }
 
 PixelRect Viewer::single_picture_rect() const {

@@ -79,7 +79,7 @@ double Viewer::next_frame() const {
   double due = now_ + refining_interval();
   if (awaited_picture_is_there()) due = drawn_at_ + kAwaitedInterval; // perhaps at once
   if (has_pending_events() || fly_command().any()) {
-    // While the hand moves the camera a frame without a new picture only hands in, and costs next to nothing.
+    // While the user moves the camera a frame without a new picture only hands in, and costs next to nothing.
     const bool only_hands_in = gesture_ != Gesture::none && !awaited_picture_is_there();
     due = std::min(due, now_ + (only_hands_in ? kHandInterval : kInputInterval));
   }

@@ -1,49 +1,56 @@
 #pragma once
 // The camera ray of a pixel's sample, for all who trace it: the image and what is gathered beside it.
 
-#include "render/camera/camera_rays.h"
+#include "render/camera/camera_model.h"
 #include "sampling/filter.h"
 #include "sampling/sampler.h"
 #include "scene/document.h"
 
-namespace candela {
+#include <utility>
 
-struct PixelRay {
-  Ray ray;
-  float weight; ///< of what the ray brings, for the pixel's mean (FilterSample::weight)
-};
+namespace candela {
 
 class PixelRays {
 public:
-  explicit PixelRays(const Document& document)
-      : camera_(document.scene.camera, document.settings.film.width, document.settings.film.height),
+  /// Of the document's camera, or of another in its place.
+  explicit PixelRays(const Document& document, std::shared_ptr<const CameraModel> camera = nullptr)
+      : camera_(camera ? std::move(camera)
+                       : make_camera(document.scene.camera, document.settings.film.width,
+                                     document.settings.film.height)),
+        uses_lens_sample_(camera_->uses_lens_sample()),
         filter_(document.settings.film.filter, document.settings.film.filter_radius) {}
 
-  const CameraRays& camera() const { return camera_; }
+  bool uses_lens_sample() const { return uses_lens_sample_; }
 
   /// A sampler of the document's kind and seed.
   static Sampler sampler(const SamplerSettings& settings) {
     return {settings.type, static_cast<std::uint64_t>(settings.seed), settings.strata};
   }
 
-  /// Starts the sampler at the sample and draws its place in the pixel's filter and on the lens.
-  PixelRay start(uvec2 pixel, std::uint32_t sample, Sampler& sampler) const {
+  /// Starts the sampler at the sample and draws its place in the pixel's filter and on the lens. The weight
+  /// is for the pixel's mean (FilterSample::weight). Nothing where the camera has no ray: the sample is
+  /// black.
+  std::optional<CameraRay> start(uvec2 pixel, std::uint32_t sample, Sampler& sampler) const {
     sampler.start(pixel, sample);
-    PixelRay result;
-    result.weight = at(pixel, sampler.get_2d(Dimension::film),
-                       camera_.has_lens() ? sampler.get_2d(Dimension::lens) : vec2(0), result.ray);
+    const vec2 film = sampler.get_2d(Dimension::film);
+    const vec2 lens = uses_lens_sample_ ? sampler.get_2d(Dimension::lens) : vec2(0);
+    CameraRay result;
+    const std::optional<float> weight = at(pixel, film, lens, result.ray);
+    if (!weight) return std::nullopt;
+    result.weight = *weight;
     return result;
   }
-  /// The same from numbers that were drawn before. Makes the ray in place (a copy of what has just been
-  /// written by parts stalls the processor) and returns its weight.
-  float at(uvec2 pixel, vec2 film, vec2 lens, Ray& ray) const {
-    FilterSample filter = filter_.sample(film);
-    ray = camera_.ray(vec2(pixel) + 0.5f + filter.offset, lens);
-    return filter.weight;
+  /// The same from numbers that were drawn before; see CameraModel::generate.
+  std::optional<float> at(uvec2 pixel, vec2 film, vec2 lens, Ray& ray) const {
+    const FilterSample filter = filter_.sample(film);
+    const std::optional<float> weight = camera_->generate(vec2(pixel) + 0.5f + filter.offset, lens, ray);
+    if (!weight) return std::nullopt;
+    return filter.weight * *weight;
   }
 
 private:
-  CameraRays camera_;
+  std::shared_ptr<const CameraModel> camera_;
+  bool uses_lens_sample_;
   PixelFilter filter_;
 };
 

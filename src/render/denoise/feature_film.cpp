@@ -123,11 +123,12 @@ bool render_features(const RenderScene& scene, const Document& document, std::ui
           film.pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(film.width_) +
                        static_cast<std::size_t>(x)];
       for (std::uint32_t i = film.spp_; i < spp; ++i) {
-        const PixelRay start = rays.start(uvec2(film.origin_ + ivec2(x, y)), i, sampler);
-        const Features f = tracer.trace(start.ray, sampler);
+        const auto start = rays.start(uvec2(film.origin_ + ivec2(x, y)), i, sampler);
+        if (!start) continue; // black
+        const Features f = tracer.trace(start->ray, sampler);
         const vec3* groups[] = {&f.albedo, &f.normal, &f.position};
         for (std::size_t k = 0; k < FeatureFilm::kChannels; ++k) {
-          float v = start.weight * (*groups[k / 3])[static_cast<glm::length_t>(k % 3)];
+          float v = start->weight * (*groups[k / 3])[static_cast<glm::length_t>(k % 3)];
           if (!std::isfinite(v)) v = 0; // a degenerate triangle's normal
           p.sum[i % 2][k] += v;
           p.sum_of_squares[k] += v * v;

@@ -58,7 +58,7 @@ PassResult CpuPassRenderer::render(const PassJob& job, const PassFilms& films, c
   bool stopped = false;
 #pragma omp parallel num_threads(threads) reduction(|| : stopped)
   {
-    PixelSampler sampler(job.scene, job.document, stop);
+    PixelSampler sampler(job.scene, job.document, stop, job.camera);
     SampleQueue queue(sampler, job, films);
 #pragma omp for schedule(dynamic, 1)
     for (int t = 0; t < tiles.size(); ++t) {

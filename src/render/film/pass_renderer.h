@@ -3,6 +3,7 @@
 // machines implement the same interface.
 
 #include "core/stop_condition.h"
+#include "render/camera/camera_model.h"
 #include "render/film/film.h"
 #include "render/film/nonfinite_log.h"
 #include "render/film/sample_range.h"
@@ -10,6 +11,7 @@
 #include "scene/document.h"
 
 #include <array>
+#include <memory>
 
 namespace candela {
 
@@ -20,7 +22,9 @@ struct PassJob {
   const RenderScene& scene;
   const Document& document;
   SampleRange range;
-  CropWindow window; ///< pixels of the frame; empty: the whole film
+  CropWindow window{}; ///< pixels of the frame; empty: the whole film
+  /// In place of the document's camera; null: that one.
+  std::shared_ptr<const CameraModel> camera = nullptr;
 };
 
 /// Where the samples go.

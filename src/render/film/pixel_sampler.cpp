@@ -23,11 +23,13 @@ PathSettings path_settings(const RenderSettings& settings) {
 
 } // namespace
 
-PixelSampler::PixelSampler(const RenderScene& scene, const Document& document, const StopCondition& stop)
+PixelSampler::PixelSampler(const RenderScene& scene, const Document& document, const StopCondition& stop,
+                           std::shared_ptr<const CameraModel> camera)
     : stop_(stop), scene_(scene), settings_(document.settings), view_(accumulated_view(settings_.view)),
-      rays_(document), sampler_(PixelRays::sampler(settings_.sampler)),
+      camera_view_(document.scene.camera, document.settings.film.width, document.settings.film.height),
+      rays_(document, std::move(camera)), sampler_(PixelRays::sampler(settings_.sampler)),
       paths_(scene, path_settings(settings_)) {
-  if (scene.has_media()) camera_media_ = media_at(scene, rays_.camera().position());
+  if (scene.has_media()) camera_media_ = media_at(scene, camera_view_.position());
 }
 
 bool PixelSampler::sample(std::span<const SampleIndex> indices, std::span<PixelSample> results,
@@ -50,20 +52,22 @@ PixelSample PixelSampler::sample(const SampleIndex& index) {
 void PixelSampler::evaluate(std::span<const SampleIndex> indices, std::span<PixelSample> results,
                             RayCounts& counts) {
   start(indices);
+  if (starts_.size() < indices.size()) // samples without a ray are black
+    std::fill_n(results.begin(), indices.size(), PixelSample{});
   if (!shows_light()) {
     view_first_hits(results, counts);
   } else if (follows_paths()) {
-    parts_.resize(indices.size());
+    parts_.resize(starts_.size());
     if (!paths_.trace(starts_, parts_, counts, stop_)) return;
-    for (std::size_t i = 0; i < indices.size(); ++i) show(parts_[i], results[i]);
+    for (std::size_t i = 0; i < starts_.size(); ++i) show(parts_[i], results[sample_of_[i]]);
   } else {
-    for (std::size_t i = 0; i < indices.size() && !stop_.asked(); ++i)
-      sample_singly(starts_[i], results[i], counts);
+    for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
+      sample_singly(starts_[i], results[sample_of_[i]], counts);
   }
-  for (std::size_t i = 0; i < indices.size(); ++i) { // as the pixel's filter weighs them
+  for (std::size_t i = 0; i < starts_.size(); ++i) { // as the pixel's filter and the camera weigh them
     if (weights_[i] == 1) continue;                  // always, for most filters
-    results[i].value *= weights_[i];
-    results[i].parts *= weights_[i];
+    results[sample_of_[i]].value *= weights_[i];
+    results[sample_of_[i]].parts *= weights_[i];
   }
 }
 
@@ -75,7 +79,7 @@ bool PixelSampler::follows_paths() const {
   return settings_.integrator == Integrator::path || settings_.integrator == Integrator::direct;
 }
 
-/// Makes the camera rays.
+/// Makes the camera rays, of the samples that have one.
 void PixelSampler::start(std::span<const SampleIndex> indices) {
   starts_.resize(indices.size(), {Ray(), sampler_});
   draws_.clear();
@@ -86,20 +90,28 @@ void PixelSampler::start(std::span<const SampleIndex> indices) {
   film_.resize(indices.size());
   lens_.assign(indices.size(), vec2(0));
   Sampler::get_2d(draws_, Dimension::film, film_);
-  if (rays_.camera().has_lens()) Sampler::get_2d(draws_, Dimension::lens, lens_);
+  if (rays_.uses_lens_sample()) Sampler::get_2d(draws_, Dimension::lens, lens_);
   weights_.resize(indices.size());
+  sample_of_.resize(indices.size());
+  std::size_t count = 0;
   for (std::size_t i = 0; i < indices.size(); ++i) {
-    weights_[i] = rays_.at(indices[i].pixel, film_[i], lens_[i], starts_[i].ray);
+    PathStart& start = starts_[count];
+    if (count != i) start.sampler = starts_[i].sampler;
+    const std::optional<float> weight = rays_.at(indices[i].pixel, film_[i], lens_[i], start.ray);
+    if (!weight) continue;
+    weights_[count] = *weight;
+    sample_of_[count++] = i;
     if (!scene_.has_media()) continue;
-    starts_[i].media = camera_media_;
-    move_between(scene_, rays_.camera().position(), starts_[i].ray.origin, starts_[i].media);
+    start.media = camera_media_;
+    move_between(scene_, camera_view_.position(), start.ray.origin, start.media);
   }
+  starts_.erase(starts_.begin() + static_cast<std::ptrdiff_t>(count), starts_.end());
 }
 
 void PixelSampler::view_first_hits(std::span<PixelSample> results, RayCounts& counts) {
   if (view_ == View::bvh_cost) {
     for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
-      results[i] = {bvh_cost_value(scene_, starts_[i].ray, counts), {}};
+      results[sample_of_[i]] = {bvh_cost_value(scene_, starts_[i].ray, counts), {}};
     return;
   }
   camera_rays_.clear();
@@ -108,9 +120,9 @@ void PixelSampler::view_first_hits(std::span<PixelSample> results, RayCounts& co
   scene_.geometry().accel().intersect(camera_rays_, hits_);
   counts.closest += starts_.size();
   for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
-    results[i] = {first_hit_value(scene_, starts_[i].ray, hits_[i].t < kInfinity, hits_[i],
-                                  rays_.camera().forward(), view_, starts_[i].sampler, counts),
-                  {}};
+    results[sample_of_[i]] = {first_hit_value(scene_, starts_[i].ray, hits_[i].t < kInfinity, hits_[i],
+                                              camera_view_.forward(), view_, starts_[i].sampler, counts),
+                              {}};
 }
 
 /// By an integrator that takes one sample after the other.
@@ -131,7 +143,8 @@ void PixelSampler::show(const PathSample& parts, PixelSample& result) const {
                     luminance(parts.more)};
     break;
   case View::light_share:
-    result.value = {luminance(parts.light_sampled), luminance(parts.direct + parts.indirect() - parts.light_sampled), 0};
+    result.value = {luminance(parts.light_sampled),
+                    luminance(parts.direct + parts.indirect() - parts.light_sampled), 0};
     break;
   default:
     result.value = parts.radiance();

@@ -2,6 +2,7 @@
 // Evaluates samples: from the indices of a pixel and a sample to what the pixel's film is given.
 
 #include "core/stop_condition.h"
+#include "render/camera/camera_view.h"
 #include "render/camera/pixel_rays.h"
 #include "render/integrators/path_integrator.h"
 #include "render/integrators/whitted_integrator.h"
@@ -24,8 +25,9 @@ struct PixelSample {
 /// Many samples at a time; one per thread. The integrator and the view are chosen once a batch.
 class PixelSampler {
 public:
-  /// Refers to the scene and the document, which must outlive it.
-  PixelSampler(const RenderScene& scene, const Document& document, const StopCondition& stop);
+  /// Refers to the scene and the document, which must outlive it. `camera`: in place of the document's.
+  PixelSampler(const RenderScene& scene, const Document& document, const StopCondition& stop,
+               std::shared_ptr<const CameraModel> camera = nullptr);
 
   /// results[i] becomes what sample indices[i] adds to its pixel. False, and results of no use, where it was
   /// asked to stop.
@@ -45,15 +47,18 @@ private:
   const RenderScene& scene_;
   const RenderSettings& settings_;
   View view_;
+  CameraView camera_view_;
   PixelRays rays_;
   Sampler sampler_; ///< of the document's kind
   PathTracer paths_;
   ScalarDirectLight direct_light_;
   MediumStack camera_media_; ///< in scenes with media
   // Parallel to the samples in flight:
-  std::vector<PathStart> starts_;
   std::vector<Sampler::Draw> draws_;
   std::vector<vec2> film_, lens_;
+  // Parallel to those of them that have a ray:
+  std::vector<PathStart> starts_;
+  std::vector<std::size_t> sample_of_; ///< index into the samples
   std::vector<float> weights_;
   std::vector<PathSample> parts_;
   std::vector<const Ray*> camera_rays_;

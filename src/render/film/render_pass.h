@@ -10,7 +10,8 @@ namespace candela {
 struct PassOptions {
   int threads = 0; ///< 0: every core
   CropWindow crop;
-  std::array<Film*, 3> components{}; ///< as PassFilms::components
+  std::array<Film*, 3> components{};                   ///< as PassFilms::components
+  std::shared_ptr<const CameraModel> camera = nullptr; ///< as PassJob::camera
 };
 
 /// CpuPassRenderer::render().

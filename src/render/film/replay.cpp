@@ -7,11 +7,11 @@ vec3 replay_sample(const RenderScene& scene, const Document& document, uvec2 pix
 }
 
 // A sum that is not finite stays so when terms are added: so the depth is doubled and then bisected.
-int nonfinite_depth(const RenderScene& scene, const Document& document, const SampleIndex& index) {
-  Document limited = document;
+int nonfinite_depth(const PassJob& job, const SampleIndex& index) {
+  Document limited = job.document;
   auto is_finite_up_to = [&](int depth) {
     limited.settings.path.max_depth = depth;
-    return is_finite(PixelSampler(scene, limited, {}).sample(index).value);
+    return is_finite(PixelSampler(job.scene, limited, {}, job.camera).sample(index).value);
   };
   int finite = 0, last = 1;
   constexpr int kMost = 1 << 20;

@@ -1,6 +1,7 @@
 #pragma once
 // One sample again, from its indices alone.
 
+#include "render/film/pass_renderer.h"
 #include "render/film/pixel_sampler.h"
 
 namespace candela {

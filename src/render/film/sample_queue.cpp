@@ -47,7 +47,7 @@ void SampleQueue::add(const SampleIndex& index, const PixelSample& s, PassResult
   if (!is_finite(s.value)) {
     films_.image.add_nonfinite(at.x, at.y);
     // Its depth takes tracing it again, so only that of those that the log keeps is found.
-    const int depth = result.nonfinite.full() ? 0 : nonfinite_depth(job_.scene, job_.document, index);
+    const int depth = result.nonfinite.full() ? 0 : nonfinite_depth(job_, index);
     result.nonfinite.add({index.pixel, index.sample, depth});
     return;
   }

@@ -95,22 +95,16 @@ vec2 Geometry::uv(const Ray& ray, const Hit& hit) const {
 }
 
 std::uint32_t Geometry::material_of(const Hit& hit) const {
-  switch (hit.kind) {
-  case PrimitiveKind::sphere: return sphere_materials_[hit.primitive];
-  case PrimitiveKind::disc: return disc_materials_[hit.primitive];
-  case PrimitiveKind::triangle: break;
-  }
+  if (hit.kind == PrimitiveKind::sphere) return sphere_materials_[hit.primitive];
+  if (hit.kind == PrimitiveKind::disc) return disc_materials_[hit.primitive];
   if (hit.instance == kNoInstance) return world_.materials[hit.primitive];
   const Placed& p = placed_[hit.instance];
   return p.slot_materials[objects_[p.object]->set.materials[hit.primitive]];
 }
 
 std::uint32_t Geometry::instance_of(const Hit& hit) const {
-  switch (hit.kind) {
-  case PrimitiveKind::sphere: return sphere_instances_[hit.primitive];
-  case PrimitiveKind::disc: return disc_instances_[hit.primitive];
-  case PrimitiveKind::triangle: break;
-  }
+  if (hit.kind == PrimitiveKind::sphere) return sphere_instances_[hit.primitive];
+  if (hit.kind == PrimitiveKind::disc) return disc_instances_[hit.primitive];
   if (hit.instance != kNoInstance) return placed_[hit.instance].instance;
   auto next = std::upper_bound(first_triangle_of_.begin(), first_triangle_of_.end(), hit.primitive);
   return triangle_instances_[static_cast<std::size_t>(next - first_triangle_of_.begin()) - 1];

@@ -92,17 +92,21 @@ public:
 
     if (progress) progress->expect(accel_work());
     std::vector<InstanceGeometry> placed;
-    for (auto& object : new_objects_)
-      object->accel = Accel::build({object->set.positions, object->set.triangles, {}, {}, {}},
-                                   BuildQuality::high, progress);
+    for (auto& object : new_objects_) {
+      AccelInput mesh;
+      mesh.vertices = object->set.positions, mesh.triangles = object->set.triangles;
+      object->accel = Accel::build(mesh, BuildQuality::high, progress);
+    }
     for (auto& p : g_->placed_) {
       const Geometry::Object& object = *g_->objects_[p.object];
       p.first_emitter = g_->emitter_count_;
       g_->emitter_count_ += object.set.triangles.size();
       placed.push_back({&object.accel, p.world_from_object});
     }
-    g_->accel_ = Accel::build({g_->world_.positions, g_->world_.triangles, g_->spheres_, g_->discs_, placed},
-                              g_->quality_, progress);
+    AccelInput world;
+    world.vertices = g_->world_.positions, world.triangles = g_->world_.triangles;
+    world.spheres = g_->spheres_, world.discs = g_->discs_, world.instances = placed;
+    g_->accel_ = Accel::build(world, g_->quality_, progress);
     bool endless = std::ranges::any_of(
         instances_, [](const Instance& i) { return std::holds_alternative<PlaneShape>(i.shape); });
     g_->finite_bounds_ = endless ? instance_bounds(instances_) : g_->accel_.bounds();

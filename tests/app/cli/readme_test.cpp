@@ -1,4 +1,5 @@
-// The README's generated parts are what the program generates, and its list of keys is complete.
+// The documents' generated tables are what the program generates, their list of keys is complete, their links
+// resolve.
 
 #include "app/cli/scene_tables.h"
 #include "app/cli/settings_command.h"
@@ -7,6 +8,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
 #include <regex>
 #include <set>
@@ -26,16 +29,112 @@ std::string between(const std::string& text, const std::string& begin, const std
   return text.substr(from + begin.size(), to - from - begin.size());
 }
 
+struct GeneratedTable {
+  const char* name;
+  const char* file;
+  std::string text;
+};
+
 TEST(Readme, HoldsTheGeneratedTables) {
-  const std::string readme = source("README.md");
-  const std::map<std::string, std::string> tables = {{"settings", settings_markdown()},
-                                                     {"materials", materials_markdown()},
-                                                     {"lights", lights_markdown()},
-                                                     {"shapes", shapes_markdown()}};
-  for (const auto& [name, table] : tables)
-    EXPECT_EQ(between(readme, fmt::format("<!-- {} -->\n", name), fmt::format("<!-- /{} -->", name)), table)
-        << "put between the marks of " << name << " (`candela settings --markdown` prints the settings):\n"
+  const GeneratedTable tables[] = {{"settings", "scenes/settings.md", settings_markdown()},
+                                   {"materials", "scenes/README.md", materials_markdown()},
+                                   {"lights", "scenes/README.md", lights_markdown()},
+                                   {"shapes", "scenes/README.md", shapes_markdown()}};
+  for (const auto& [name, file, table] : tables)
+    EXPECT_EQ(between(source(file), fmt::format("<!-- {} -->\n", name), fmt::format("<!-- /{} -->", name)),
+              table)
+        << "put between the marks of " << name << " in " << file
+        << " (`candela settings --markdown` prints the settings):\n"
         << table;
+}
+
+/// The documents of the source tree, relative to its root.
+std::vector<std::string> documents() {
+  namespace fs = std::filesystem;
+  const fs::path root(CANDELA_TEST_SOURCE_DIR);
+  std::vector<std::string> out = {"README.md"};
+  for (const char* folder : {"src", "scenes", "tests", "assets"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+      if (entry.path().extension() == ".md") out.push_back(fs::relative(entry.path(), root).generic_string());
+  return out;
+}
+
+/// The marks of GitHub's headings: lower case, blanks as hyphens, no punctuation.
+std::string anchor(const std::string& heading) {
+  std::string out;
+  for (const char c : heading) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else if (c == ' ' || c == '-')
+      out += '-';
+  }
+  return out;
+}
+
+std::set<std::string> anchors(const std::string& text) {
+  static const std::regex kHeading("(^|\n)#+ ([^\n]*)");
+  std::set<std::string> out;
+  for (std::sregex_iterator at(text.begin(), text.end(), kHeading), end; at != end; ++at)
+    out.insert(anchor((*at)[2]));
+  return out;
+}
+
+/// What a document's links do not find, as "link: why".
+std::vector<std::string> broken_links(const std::string& document, const std::string& text) {
+  namespace fs = std::filesystem;
+  static const std::regex kLink("\\]\\(([^)\\s]+)\\)");
+  const fs::path root(CANDELA_TEST_SOURCE_DIR);
+  std::vector<std::string> out;
+  for (std::sregex_iterator at(text.begin(), text.end(), kLink), end; at != end; ++at) {
+    const std::string link = (*at)[1];
+    if (link.find("://") != std::string::npos) continue;
+    const std::string file = link.substr(0, link.find('#'));
+    const fs::path target = file.empty() ? root / document : root / fs::path(document).parent_path() / file;
+    if (!fs::exists(target))
+      out.push_back(link + ": no such file");
+    else if (link.size() > file.size() &&
+             !anchors(test::read_text(target.string())).contains(link.substr(file.size() + 1)))
+      out.push_back(link + ": no such heading");
+  }
+  return out;
+}
+
+TEST(Readme, LinksOfAllDocumentsResolve) {
+  EXPECT_EQ(broken_links("src/README.md", "[a](app/README.md#the-window), ![b](../assets/window.png)").size(),
+            0u);
+  EXPECT_EQ(broken_links("README.md", "[a](cellar.md) [b](README.md#attic)"),
+            (std::vector<std::string>{"cellar.md: no such file", "README.md#attic: no such heading"}));
+  const std::vector<std::string> all = documents();
+  EXPECT_GE(all.size(), 8u);
+  for (const std::string& document : all)
+    for (const std::string& problem : broken_links(document, source(document)))
+      ADD_FAILURE() << document << ": " << problem;
+}
+
+TEST(Readme, TheMapNamesEveryRoom) {
+  namespace fs = std::filesystem;
+  const fs::path src = fs::path(CANDELA_TEST_SOURCE_DIR) / "src";
+  const std::string map = source("src/README.md"), program = source("src/app/README.md");
+  int rooms = 0;
+  for (const auto& layer : fs::directory_iterator(src)) {
+    if (!layer.is_directory()) continue;
+    const std::string name = layer.path().filename().string();
+    EXPECT_NE(map.find("`" + name + "/"), std::string::npos) << name;
+    for (const auto& room : fs::directory_iterator(layer)) {
+      if (!room.is_directory()) continue;
+      const std::string inner = room.path().filename().string();
+      const bool named = name == "app" ? program.find("`" + inner + "/`") != std::string::npos
+                                       : map.find("`" + name + "/" + inner + "/`") != std::string::npos;
+      EXPECT_TRUE(named) << name << "/" << inner;
+      ++rooms;
+    }
+  }
+  EXPECT_GT(rooms, 20);
+}
+
+TEST(Readme, FitsAFirstHalfHour) {
+  const std::string readme = source("README.md");
+  EXPECT_LE(std::ranges::count(readme, '\n'), 200);
 }
 
 /// The words of a list's keys, "Ctrl+Shift+S" being one; what stands before it on its line, if it is given.
@@ -88,7 +187,7 @@ TEST(Readme, AndTheHelpNameEveryKeyThatDoesSomething) {
   }
   EXPECT_GT(keys.size(), 45u);
   EXPECT_TRUE(keys.contains("M") && keys.contains("Ctrl+Q") && keys.contains("Space") && keys.contains("H"));
-  const auto readme = key_words(between(source("README.md"), "| key | does |\n|---|---|\n", "\n\n"),
+  const auto readme = key_words(between(source("src/app/README.md"), "| key | does |\n|---|---|\n", "\n\n"),
                                 std::regex("\\| ([^|]*) \\|[^|]*\\|"));
   const auto help =
       key_words(between(source("src/app/panels/panels_overlay.cpp"), "kViewKeys[] = {", "void key_list("),
@@ -99,7 +198,7 @@ TEST(Readme, AndTheHelpNameEveryKeyThatDoesSomething) {
       return words.contains(key) || ((key == "." || key == "number pad .") &&
                                      (words.contains(".") || words.contains("number pad .")));
     };
-    EXPECT_TRUE(has(readme)) << key << " is missing in README.md";
+    EXPECT_TRUE(has(readme)) << key << " is missing in src/app/README.md";
     EXPECT_TRUE(has(help)) << key << " is missing in the help (F1)";
   }
 }

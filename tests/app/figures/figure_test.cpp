@@ -31,7 +31,7 @@ Plot convergence() {
 
 Figure everything(float scale) {
   Figure figure;
-  figure.title = "Four samplers at the same number of samples: what a strategy is worth is seen in its noise";
+  figure.title = "Four samplers at the same number of samples: the noise shows how good a strategy is";
   figure.scale = scale;
   figure.columns = 2;
   figure.picture_width = static_cast<int>(256 * scale);

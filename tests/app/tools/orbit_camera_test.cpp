@@ -3,7 +3,7 @@
 #include "app/tools/fly_camera.h"
 #include "app/tools/orbit_camera.h"
 #include "app/tools/projection.h"
-#include "render/camera/camera_rays.h"
+#include "render/camera/thin_lens_camera.h"
 
 #include <gtest/gtest.h>
 
@@ -34,12 +34,12 @@ void expect_near(vec2 a, vec2 b, float tolerance = 0.05f) { EXPECT_LT(glm::lengt
 TEST(ScreenProjection, IsWhereTheRenderersRaysGo) {
   for (Camera camera : {slanted(), slanted(Projection::orthographic)}) {
     {
-      const CameraRays rays(camera, kFilm.x, kFilm.y);
+      const ThinLensCamera rays(camera, kFilm.x, kFilm.y);
       const ScreenProjection screen(camera, kPicture, kFilm);
       for (vec2 film : {vec2(0), vec2(1279, 700), vec2(300, 100)}) {
         const vec2 at = vec2(kPicture.x, kPicture.y) + 0.5f * film;
-        expect_near(seen(camera, rays.ray(film, vec2(0)).at(7)), at);
-        EXPECT_LT(glm::length(screen.ray(at).direction - rays.ray(film, vec2(0)).direction), 1e-5f);
+        expect_near(seen(camera, rays.ray(film, vec2(0))->ray.at(7)), at);
+        EXPECT_LT(glm::length(screen.ray(at).direction - rays.ray(film, vec2(0))->ray.direction), 1e-5f);
       }
     }
     const ScreenProjection screen(camera, kPicture, kFilm);

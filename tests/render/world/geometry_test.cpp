@@ -1,7 +1,5 @@
-// What a hit becomes, what a pixel picks, where camera rays go, what the film knows, and what a texture says.
+// What a hit becomes, what the film knows, and what a texture says.
 
-#include "render/camera/camera_rays.h"
-#include "render/camera/picking.h"
 #include "render/film/film_view.h"
 #include "render/render_testing.h"
 #include "render/world/texture_lookup.h"
@@ -145,85 +143,6 @@ TEST(Geometry, ARayLeavingAWallDoesNotMeetItAgain) {
     }
     EXPECT_EQ(again, 0);
   }
-}
-
-TEST(Picking, FindsInstanceMaterialAndDepth) {
-  SceneMaker s(100, 50, 1);
-  int a = s.diffuse(vec3(1)), b = s.diffuse(vec3(1));
-  auto mesh = std::make_shared<const Mesh>(sphere_mesh(40, 60, false));
-  s.rectangle({0, 0, -5}, {50, 0, 0}, {0, 50, 0}, a);
-  s.mesh_shared(mesh, b, glm::translate(mat4(1), {-2, 0, 0}));
-  s.mesh_shared(mesh, b, glm::translate(mat4(1), {2, 0, 0}));
-  s.sphere({0, 0, 0}, 0.5f, b);
-  s.camera({0, 0, 10}, {0, 0, 0}, 30);
-  s.document.scene.camera.aperture_radius = 3; // a hand picks through the middle of the lens
-  auto scene = RenderScene::build(s.document);
-  auto at = [&](vec3 p) { // film position of a point, by the definition of the field of view
-    float scale = 25 / std::tan(radians(15.0f)) / (10 - p.z);
-    return vec2(50 + p.x * scale, 25 - p.y * scale);
-  };
-  auto p = pick(*scene, s.document, at({0, 0, 0}));
-  ASSERT_TRUE(p);
-  EXPECT_EQ(p->instance, 3);
-  EXPECT_EQ(p->material, b);
-  EXPECT_NEAR(p->view_depth, 9.5f, 1e-4f);
-  EXPECT_EQ(pick(*scene, s.document, at({-2, 0, 0}))->instance, 1);
-  EXPECT_EQ(pick(*scene, s.document, at({2, 0.1f, 0}))->instance, 2);
-  p = pick(*scene, s.document, at({-5, 3, -5}));
-  EXPECT_EQ(p->instance, 0);
-  EXPECT_NEAR(p->view_depth, 15, 1e-4f); // along the axis, not along the ray
-  EXPECT_NEAR(glm::length(p->position - vec3(-5, 3, -5)), 0, 1e-3f);
-  s.document.scene.camera.target = {0, 0, 20};
-  EXPECT_FALSE(pick(*scene, s.document, {50, 25}));
-}
-
-TEST(CameraRays, PinholeSpansTheFieldOfView) {
-  Camera c;
-  c.position = {1, 2, 3};
-  c.target = {1, 2, -7};
-  c.vertical_fov = radians(60.0f);
-  CameraRays rays(c, 200, 100);
-  EXPECT_FALSE(rays.has_lens());
-  EXPECT_NEAR(glm::length(rays.ray({100, 50}, {}).direction - vec3(0, 0, -1)), 0, 1e-6f);
-  vec3 top = rays.ray({100, 0}, {}).direction, left = rays.ray({0, 50}, {}).direction;
-  EXPECT_NEAR(std::atan2(top.y, -top.z), radians(30.0f), 1e-6f);
-  EXPECT_LT(left.x, 0);
-  EXPECT_NEAR(-left.x / -left.z, 2 * std::tan(radians(30.0f)), 1e-5f); // square pixels
-}
-
-TEST(CameraRays, LensIsSharpInTheFocusPlaneAndBlursByTheCircleOfConfusion) {
-  Camera c;
-  c.position = {0, 0, 0};
-  c.target = {0, 0, -1};
-  c.aperture_radius = 0.2f;
-  c.focus_distance = 4;
-  CameraRays rays(c, 64, 64);
-  Camera pinhole = c;
-  pinhole.aperture_radius = 0;
-  CameraRays sharp(pinhole, 64, 64);
-  auto at_depth = [](const Ray& r, float depth) { return r.at((-depth - r.origin.z) / r.direction.z); };
-  float largest = 0;
-  for (int i = 0; i < 64; ++i)
-    for (int j = 0; j < 64; ++j) {
-      vec2 u((static_cast<float>(i) + 0.5f) / 64, (static_cast<float>(j) + 0.5f) / 64), film(20.3f, 41.7f);
-      Ray r = rays.ray(film, u), s = sharp.ray(film, {});
-      ASSERT_LE(glm::length(r.origin), 0.2f * 1.0001f);
-      ASSERT_EQ(r.origin.z, 0);
-      ASSERT_LT(glm::length(at_depth(r, 4) - at_depth(s, 4)), 2e-6f);
-      largest = std::max(largest, glm::length(at_depth(r, 10) - at_depth(s, 10)));
-    }
-  // Radius of the blur in the plane at depth z: aperture |z - f| / f.
-  EXPECT_LE(largest, 0.2f * 6 / 4 * 1.0001f);
-  EXPECT_GT(largest, 0.2f * 6 / 4 * 0.97f);
-}
-
-TEST(CameraRays, WithoutAFocusDistanceTheTargetIsSharp) {
-  Camera c;
-  c.position = {0, 0, 5};
-  c.target = {0, 0, 2};
-  EXPECT_EQ(c.effective_focus_distance(), 3);
-  c.focus_distance = 7;
-  EXPECT_EQ(c.effective_focus_distance(), 7);
 }
 
 TEST(FilmStatistical, VarianceOfTheMeanIsTheSpreadOfMeans) {

@@ -1,7 +1,6 @@
 // Where camera rays go, and how the points of the lens lie.
 
-#include "render/camera/camera_rays.h"
-#include "render/camera/picking.h"
+#include "render/camera/thin_lens_camera.h"
 #include "render/render_testing.h"
 #include "render/world/render_scene.h"
 
@@ -9,6 +8,12 @@
 
 namespace candela::test {
 namespace {
+
+Ray ray_of(const CameraModel& camera, vec2 film, vec2 u_lens) {
+  const auto ray = camera.ray(film, u_lens);
+  EXPECT_TRUE(ray && ray->weight == 1);
+  return ray ? ray->ray : Ray{};
+}
 
 Camera looking_down() {
   Camera camera;
@@ -111,53 +116,104 @@ TEST(Aperture, HasItsCornersWhereItSays) {
   }
 }
 
-TEST(CameraRays, OrthographicRaysAreParallelAndEquallySpaced) {
+TEST(CameraView, PerspectivePixelsGrowWithTheDepth) {
+  Camera camera = looking_down();
+  camera.vertical_fov = radians(90.0f);
+  const CameraView view(camera, 200, 100);
+  EXPECT_NEAR(view.pixel_footprint(1).y, 0.02f, 1e-7f); // 2 tan(45 degrees) / 100
+  EXPECT_NEAR(view.pixel_footprint(5).y, 0.1f, 1e-6f);
+  EXPECT_EQ(view.pixel_footprint(5).x, view.pixel_footprint(5).y);
+}
+
+TEST(ThinLensCamera, PinholeSpansTheFieldOfView) {
+  Camera c;
+  c.position = {1, 2, 3};
+  c.target = {1, 2, -7};
+  c.vertical_fov = radians(60.0f);
+  const ThinLensCamera rays(c, 200, 100);
+  EXPECT_FALSE(rays.uses_lens_sample());
+  EXPECT_NEAR(glm::length(ray_of(rays, {100, 50}, {}).direction - vec3(0, 0, -1)), 0, 1e-6f);
+  vec3 top = ray_of(rays, {100, 0}, {}).direction, left = ray_of(rays, {0, 50}, {}).direction;
+  EXPECT_NEAR(std::atan2(top.y, -top.z), radians(30.0f), 1e-6f);
+  EXPECT_LT(left.x, 0);
+  EXPECT_NEAR(-left.x / -left.z, 2 * std::tan(radians(30.0f)), 1e-5f); // square pixels
+}
+
+TEST(ThinLensCamera, LensIsSharpInTheFocusPlaneAndBlursByTheCircleOfConfusion) {
+  Camera c;
+  c.position = {0, 0, 0};
+  c.target = {0, 0, -1};
+  c.aperture_radius = 0.2f;
+  c.focus_distance = 4;
+  const ThinLensCamera rays(c, 64, 64);
+  Camera pinhole = c;
+  pinhole.aperture_radius = 0;
+  const ThinLensCamera sharp(pinhole, 64, 64);
+  auto at_depth = [](const Ray& r, float depth) { return r.at((-depth - r.origin.z) / r.direction.z); };
+  float largest = 0;
+  for (int i = 0; i < 64; ++i)
+    for (int j = 0; j < 64; ++j) {
+      vec2 u((static_cast<float>(i) + 0.5f) / 64, (static_cast<float>(j) + 0.5f) / 64), film(20.3f, 41.7f);
+      Ray r = ray_of(rays, film, u), s = ray_of(sharp, film, {});
+      ASSERT_LE(glm::length(r.origin), 0.2f * 1.0001f);
+      ASSERT_EQ(r.origin.z, 0);
+      ASSERT_LT(glm::length(at_depth(r, 4) - at_depth(s, 4)), 2e-6f);
+      largest = std::max(largest, glm::length(at_depth(r, 10) - at_depth(s, 10)));
+    }
+  // Radius of the blur in the plane at depth z: aperture |z - f| / f.
+  EXPECT_LE(largest, 0.2f * 6 / 4 * 1.0001f);
+  EXPECT_GT(largest, 0.2f * 6 / 4 * 0.97f);
+}
+
+TEST(ThinLensCamera, WithoutAFocusDistanceTheTargetIsSharp) {
+  Camera c;
+  c.position = {0, 0, 5};
+  c.target = {0, 0, 2};
+  EXPECT_EQ(c.effective_focus_distance(), 3);
+  c.focus_distance = 7;
+  EXPECT_EQ(c.effective_focus_distance(), 7);
+}
+
+TEST(ThinLensCamera, OrthographicRaysAreParallelAndEquallySpaced) {
   Camera camera = looking_down();
   camera.projection = Projection::orthographic;
   camera.orthographic_height = 6;
-  const CameraRays rays(camera, 40, 30);
+  const ThinLensCamera rays(camera, 40, 30);
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x) {
-      const Ray ray = rays.ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, vec2(0));
+      const Ray ray = ray_of(rays, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, vec2(0));
       EXPECT_EQ(ray.direction, vec3(0, 0, -1));
       // 6 units over 30 pixels, square; the film's middle is the camera's position.
       const vec3 expected(1 + 0.2f * (static_cast<float>(x) + 0.5f - 20),
                           2 - 0.2f * (static_cast<float>(y) + 0.5f - 15), 10);
       EXPECT_LT(glm::length(ray.origin - expected), 1e-5f);
     }
-  EXPECT_EQ(rays.pixel_footprint(1), rays.pixel_footprint(100)) << "nothing gets smaller far away";
-  EXPECT_NEAR(rays.pixel_footprint(7).x, 0.2f, 1e-6f);
+  const CameraView view(camera, 40, 30);
+  EXPECT_EQ(view.pixel_footprint(1), view.pixel_footprint(100)) << "nothing gets smaller far away";
+  EXPECT_NEAR(view.pixel_footprint(7).x, 0.2f, 1e-6f);
 }
 
-TEST(CameraRays, PerspectivePixelsGrowWithTheDepth) {
-  Camera camera = looking_down();
-  camera.vertical_fov = radians(90.0f);
-  const CameraRays rays(camera, 200, 100);
-  EXPECT_NEAR(rays.pixel_footprint(1).y, 0.02f, 1e-7f); // 2 tan(45 degrees) / 100
-  EXPECT_NEAR(rays.pixel_footprint(5).y, 0.1f, 1e-6f);
-  EXPECT_EQ(rays.pixel_footprint(5).x, rays.pixel_footprint(5).y);
-}
-
-TEST(CameraRays, AnAspectStretchesTheViewOverTheFilm) {
+TEST(ThinLensCamera, AnAspectStretchesTheViewOverTheFilm) {
   for (Projection projection : {Projection::perspective, Projection::orthographic}) {
     Camera camera = looking_down();
     camera.projection = projection;
     camera.vertical_fov = radians(90.0f);
     camera.orthographic_height = 2;
     camera.aspect = 2.5f;
-    const CameraRays rays(camera, 64, 64);
+    const ThinLensCamera rays(camera, 64, 64);
     auto at_distance_one = [&](vec2 film) {
-      const Ray ray = rays.ray(film, vec2(0));
+      const Ray ray = ray_of(rays, film, vec2(0));
       const vec3 p = ray.at((9 - ray.origin.z) / ray.direction.z);
       return vec2(p) - vec2(camera.position);
     };
     EXPECT_LT(glm::length(at_distance_one({0, 0}) - vec2(-2.5f, 1)), 1e-5f);
     EXPECT_LT(glm::length(at_distance_one({64, 64}) - vec2(2.5f, -1)), 1e-5f);
-    EXPECT_NEAR(rays.pixel_footprint(1).x / rays.pixel_footprint(1).y, 2.5f, 1e-5f);
+    const CameraView view(camera, 64, 64);
+    EXPECT_NEAR(view.pixel_footprint(1).x / view.pixel_footprint(1).y, 2.5f, 1e-5f);
   }
 }
 
-TEST(CameraRays, ProjectingUndoesTheRay) {
+TEST(ThinLensCamera, ProjectingUndoesTheRay) {
   for (Projection projection : {Projection::perspective, Projection::orthographic})
     for (float aspect : {0.0f, 1.7f}) {
       Camera camera;
@@ -165,18 +221,22 @@ TEST(CameraRays, ProjectingUndoesTheRay) {
       camera.target = {0, 0.5f, -2};
       camera.projection = projection;
       camera.aspect = aspect;
-      const CameraRays rays(camera, 320, 200);
+      const ThinLensCamera rays(camera, 320, 200);
+      const CameraView view(camera, 320, 200);
       for (vec2 film : {vec2(0.5f, 0.5f), vec2(160, 100), vec2(311, 7), vec2(20, 199)}) {
-        const Ray ray = rays.ray(film, vec2(0));
-        const auto back = rays.project(ray.at(3.7f));
+        const Ray ray = ray_of(rays, film, vec2(0));
+        const auto back = view.project(ray.at(3.7f));
         ASSERT_TRUE(back);
         EXPECT_LT(glm::length(*back - film), 2e-3f);
-        EXPECT_FALSE(rays.project(camera.position - ray.direction));
+        const Ray sight = view.sight(film); // a pinhole's ray is where it is seen
+        EXPECT_EQ(sight.origin, ray.origin);
+        EXPECT_EQ(sight.direction, ray.direction);
+        EXPECT_FALSE(view.project(camera.position - ray.direction));
       }
     }
 }
 
-TEST(CameraRays, TheLensMeetsOnThePlaneOfFocusAndBlursByTheClosedForm) {
+TEST(ThinLensCamera, TheLensMeetsOnThePlaneOfFocusAndBlursByTheClosedForm) {
   for (Projection projection : {Projection::perspective, Projection::orthographic}) {
     Camera camera = looking_down();
     camera.projection = projection;
@@ -184,44 +244,28 @@ TEST(CameraRays, TheLensMeetsOnThePlaneOfFocusAndBlursByTheClosedForm) {
     camera.focus_distance = 4;
     Camera pinhole = camera;
     pinhole.aperture_radius = 0;
-    const CameraRays rays(camera, 100, 80), straight(pinhole, 100, 80);
+    const ThinLensCamera rays(camera, 100, 80), straight(pinhole, 100, 80);
+    const CameraView view(camera, 100, 80), pinhole_view(pinhole, 100, 80);
     const vec2 film(23, 61);
-    const Ray middle = straight.ray(film, vec2(0));
+    const Ray middle = ray_of(straight, film, vec2(0));
     auto at_depth = [](const Ray& ray, float depth) {
       return ray.at((10 - depth - ray.origin.z) / ray.direction.z);
     };
     for (float depth : {4.0f, 2.0f, 9.0f}) {
       float widest = 0;
       for (int i = 0; i < 256; ++i) { // the rim of the lens
-        const Ray ray = rays.ray(film, {static_cast<float>(i) / 256, 0});
+        const Ray ray = ray_of(rays, film, {static_cast<float>(i) / 256, 0});
         // What is seen at that depth through the rim would be on another place of a pinhole's film.
-        const auto seen = straight.project(at_depth(ray, depth));
+        const auto seen = pinhole_view.project(at_depth(ray, depth));
         ASSERT_TRUE(seen);
         widest = std::max(widest, glm::length(*seen - film));
       }
-      EXPECT_NEAR(2 * widest, rays.blur_diameter(depth), 2e-3f * rays.blur_diameter(depth) + 2e-3f) << depth;
+      EXPECT_NEAR(2 * widest, view.blur_diameter(depth), 2e-3f * view.blur_diameter(depth) + 2e-3f) << depth;
     }
-    EXPECT_EQ(rays.blur_diameter(4), 0);
-    EXPECT_EQ(straight.blur_diameter(9), 0);
-    EXPECT_LT(glm::length(at_depth(rays.ray(film, {0.9f, 0.1f}), 4) - at_depth(middle, 4)), 1e-5f);
+    EXPECT_EQ(view.blur_diameter(4), 0);
+    EXPECT_EQ(pinhole_view.blur_diameter(9), 0);
+    EXPECT_LT(glm::length(at_depth(ray_of(rays, film, {0.9f, 0.1f}), 4) - at_depth(middle, 4)), 1e-5f);
   }
-}
-
-TEST(CameraPicking, AnOrthographicPickFindsWhatTheRayMeets) {
-  SceneMaker s(40, 40, 1);
-  const int mat = s.diffuse(vec3(0.5f));
-  s.sphere({1.5f, 1.5f, 0}, 0.25f, mat);
-  s.camera({0, 0, 10}, {0, 0, 0}, 45);
-  Camera& camera = s.document.scene.camera;
-  camera.projection = Projection::orthographic;
-  camera.orthographic_height = 4;
-  const auto scene = RenderScene::build(s.document);
-  const auto hit = pick(*scene, s.document, {35, 5}); // 10 pixels a unit: (1.5, 1.5)
-  ASSERT_TRUE(hit);
-  EXPECT_NEAR(hit->view_depth, 9.75f, 1e-4f);
-  EXPECT_NEAR(hit->distance, 9.75f, 1e-4f);
-  EXPECT_LT(glm::length(hit->geometric_normal - vec3(0, 0, 1)), 1e-2f);
-  EXPECT_FALSE(pick(*scene, s.document, {20, 20}));
 }
 
 TEST(CameraRender, AnOrthographicDepthIsFlatOnAPlane) {
@@ -249,8 +293,8 @@ TEST(CameraRender, ALightOutOfFocusHasTheShapeOfTheAperture) {
   camera.blades = kBlades;
   camera.blade_rotation = kRotation;
   s.document.settings.path.max_depth = 1;
-  const CameraRays rays(camera, kSize, kSize);
-  const float radius = 0.5f * rays.blur_diameter(2); // pixels
+  const CameraView view(camera, kSize, kSize);
+  const float radius = 0.5f * view.blur_diameter(2); // pixels
   ASSERT_GT(radius, 9);
   ASSERT_LT(radius, 0.5f * kSize);
   const Film film = render(s.document);

@@ -1,8 +1,8 @@
 #pragma once
-// Camera rays: perspective or parallel ones, through a pinhole or a thin lens.
+// How the camera's view lies on the film: what the window, gizmos and picking project with. It knows where
+// things are seen, not how rays are generated (render/camera/camera_model.h).
 
 #include "core/ray.h"
-#include "render/camera/aperture.h"
 #include "scene/scene_desc.h"
 
 #include <optional>
@@ -12,15 +12,14 @@ namespace candela {
 /// The camera with its basis worked out. Film positions are in pixels, (0, 0) is the top left corner. The
 /// view is vertical_fov (orthographic_height) high; it is as wide as square pixels make it or, where
 /// Camera::aspect says so, that many times as wide as high.
-class CameraRays {
+class CameraView {
 public:
-  CameraRays(const Camera& camera, int width, int height)
-      : orthographic_(camera.projection == Projection::orthographic), origin_(camera.position),
+  CameraView(const Camera& camera, int width, int height)
+      : orthographic_(camera.projection == Projection::orthographic), position_(camera.position),
         forward_(glm::normalize(camera.target - camera.position)),
         right_(glm::normalize(glm::cross(forward_, camera.up))), up_(glm::cross(right_, forward_)),
         center_(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)),
-        aperture_(camera.blades, camera.blade_rotation), aperture_radius_(camera.aperture_radius),
-        focus_distance_(camera.effective_focus_distance()) {
+        aperture_radius_(camera.aperture_radius), focus_distance_(camera.effective_focus_distance()) {
     const float view_height =
         orthographic_ ? camera.orthographic_height : 2 * std::tan(0.5f * camera.vertical_fov);
     pixel_.y = view_height / static_cast<float>(height);
@@ -29,35 +28,33 @@ public:
 
   bool has_lens() const { return aperture_radius_ > 0; }
   bool orthographic() const { return orthographic_; }
-  vec3 position() const { return origin_; }
-  vec3 forward() const { return forward_; }
+  vec3 position() const { return position_; }
+  vec3 forward() const { return forward_; } ///< unit, as right() and up()
+  vec3 right() const { return right_; }
+  vec3 up() const { return up_; }
   float focus_distance() const { return focus_distance_; }
+  float aperture_radius() const { return aperture_radius_; }
 
-  /// World-space ray of unit direction through the film position and, with a lens, the point of the aperture
-  /// that the square u_lens maps to. The importance is 1: a pixel is the mean radiance over film and
-  /// aperture. Parallel rays begin on the plane through the camera; with a lens each is the middle of a cone
-  /// that meets on the plane of focus (a telecentric lens).
-  Ray ray(vec2 film, vec2 u_lens) const {
-    vec2 p = (film - center_) * pixel_;
-    vec3 shift = right_ * p.x - up_ * p.y;
-    vec3 origin = orthographic_ ? origin_ + shift : origin_;
-    // Meets the plane of focus at t = focus_distance.
-    vec3 direction = orthographic_ ? forward_ : forward_ + shift;
-    if (has_lens()) {
-      vec2 lens = aperture_.sample(u_lens) * aperture_radius_;
-      vec3 offset = right_ * lens.x + up_ * lens.y;
-      origin += offset;
-      direction = direction * focus_distance_ - offset;
-    }
-    return {origin, 0, glm::normalize(direction), kInfinity};
+  /// From the middle of the view to a film position, on the plane at distance 1 (any, if orthographic).
+  vec3 shift(vec2 film) const {
+    const vec2 p = (film - center_) * pixel_;
+    return right_ * p.x - up_ * p.y;
+  }
+
+  /// World-space ray of unit direction along which a pinhole here sees what it shows at the film position.
+  /// Parallel ones begin on the plane through the camera.
+  Ray sight(vec2 film) const {
+    const vec3 s = shift(film);
+    return {orthographic_ ? position_ + s : position_, 0,
+            glm::normalize(orthographic_ ? forward_ : forward_ + s), kInfinity};
   }
 
   /// Distance of the point along the view axis; negative behind the camera.
-  float view_depth(vec3 point) const { return glm::dot(point - origin_, forward_); }
+  float view_depth(vec3 point) const { return glm::dot(point - position_, forward_); }
 
   /// The film position at which a pinhole here shows the point; nothing where it is not in front.
   std::optional<vec2> project(vec3 point) const {
-    const vec3 v = point - origin_;
+    const vec3 v = point - position_;
     const float depth = glm::dot(v, forward_);
     if (!(depth > 0)) return std::nullopt;
     const float scale = orthographic_ ? 1 : 1 / depth;
@@ -67,7 +64,7 @@ public:
   /// Side of the area that a pixel covers at a view depth, across and upwards, in scene units.
   vec2 pixel_footprint(float view_depth) const { return orthographic_ ? pixel_ : pixel_ * view_depth; }
 
-  /// Diameter of the disc (or of the circle about the polygon) into which the lens blurs a point at a view
+  /// Diameter of the disc (or of the circle about the polygon) into which a thin lens blurs a point at a view
   /// depth z, in pixel heights: with the aperture's radius a and the plane of focus at f, the rays through a
   /// lens point o reach the plane of focus o (f - z) / z from where the pinhole's does, o (f - z) / f if they
   /// are parallel. 0 for a pinhole.
@@ -91,9 +88,8 @@ public:
 
 private:
   bool orthographic_;
-  vec3 origin_, forward_, right_, up_;
+  vec3 position_, forward_, right_, up_;
   vec2 center_, pixel_; ///< pixel_: its sides on the plane at distance 1, or anywhere if orthographic
-  Aperture aperture_;
   float aperture_radius_, focus_distance_;
 };
 
