@@ -72,7 +72,7 @@ std::string table_text(const BenchResult& r, const std::string& surface, const s
   };
   print("{}, {} x {}, {}, {} threads, load {:.1f} to {:.1f}\n\n", scene, r.size.x, r.size.y, surface,
         r.threads, r.load[0], r.load[1]);
-  print("{:<28}{:>10}{:>10}{:>10}\n", "ms from hand to picture", "median", "90 %", "99 %");
+  print("{:<28}{:>10}{:>10}{:>10}\n", "input latency, ms", "median", "90 %", "99 %");
   auto row = [&](const std::string& name, const Percentiles& s) {
     print("{:<28}{:>10.1f}{:>10.1f}{:>10.1f}\n", name, s.median, s.p90, s.p99);
   };
