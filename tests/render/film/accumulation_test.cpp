@@ -28,7 +28,17 @@ Film reference(const RenderScene& scene, const Document& document, std::uint32_t
   return film;
 }
 
-/// Ends a pass after some looks at the stop condition, from the outside: a renderer that gives up.
+/// Two samples of another seed.
+Accumulation used_accumulation(const RenderScene& scene, Document document) {
+  document.settings.sampler.seed ^= 1;
+  document.settings.stop.spp = 2;
+  Accumulation a(document.settings.film, {});
+  CpuPassRenderer renderer;
+  a.advance(renderer, scene, document, {});
+  return a;
+}
+
+/// Ends every other pass early, after a part of its window.
 class ImpatientRenderer final : public PassRenderer {
 public:
   explicit ImpatientRenderer(std::mt19937_64& random) : random_(random) {}
@@ -36,7 +46,6 @@ public:
   PassResult render(const PassJob& job, const PassFilms& films, const StopCondition& stop) override {
     ++passes;
     if (random_() % 2 == 0) return cpu_.render(job, films, stop);
-    // A part of the job's window, then it gives up.
     PassJob part = job;
     part.window = {0, 0, static_cast<int>(random_() % kWidth), static_cast<int>(random_() % kHeight)};
     if (!job.window.empty()) {
@@ -63,7 +72,8 @@ TEST(AccumulationRender, AnyPortionsStopsAndCopiesGiveTheSameBits) {
   auto scene = RenderScene::build(d);
   const Film expected = reference(*scene, d, 23);
   for (int coarsest : {1, 2, 8, 64}) {
-    Accumulation a(d.settings.film, {.coarsest = coarsest, .components = coarsest == 8});
+    Accumulation a = used_accumulation(*scene, d); // the film holds another picture
+    a.restart(d.settings.film, {.coarsest = coarsest, .components = coarsest == 8});
     ImpatientRenderer renderer(random);
     while (!a.finished(d.settings.stop)) {
       ASSERT_LT(renderer.passes, 10000);
