@@ -49,8 +49,9 @@ inline BsdfEval bsdf_eval_pdf(const Bsdf& bsdf, vec3 wo, vec3 wi,
       },
       bsdf);
 }
-inline std::optional<BsdfSample> bsdf_sample(const Bsdf& bsdf, vec3 wo, BsdfU u,
-                                             TransportMode mode = TransportMode::radiance) {
+/// Inlined, for a result that is copied from where a call has just written it stalls the processor.
+[[gnu::always_inline]] inline std::optional<BsdfSample>
+bsdf_sample(const Bsdf& bsdf, vec3 wo, BsdfU u, TransportMode mode = TransportMode::radiance) {
   return visit_variant(
       [&](const auto& model) {
         if constexpr (requires { model.sample(wo, u, mode); })

@@ -39,19 +39,30 @@ inline float direction_pdf(const Bsdf& bsdf, vec3 wo, vec3 wi, DirectionSampling
   return direction_eval_pdf(bsdf, wo, wi, how).pdf;
 }
 
-/// As BsdfModel::sample, but with `uniform` and `cosine` the lobes without delta are sampled over the
-/// hemisphere on wo's side, or over both where such a lobe transmits. Delta lobes are still taken with
-/// delta_probability, for no other density ever finds them; so every strategy has the same expectation.
-inline std::optional<BsdfSample> sample_direction(const Bsdf& bsdf, vec3 wo, BsdfU u, DirectionSampling how) {
-  if (how == DirectionSampling::bsdf) return bsdf_sample(bsdf, wo, u);
+namespace detail {
+
+/// sample_direction() by `uniform` or `cosine`; apart, so that the other is small enough to be inlined.
+[[gnu::noinline]] inline std::optional<BsdfSample> sample_by_strategy(const Bsdf& bsdf, vec3 wo, BsdfU u,
+                                                                      DirectionSampling how) {
   const float delta = bsdf_delta_probability(bsdf, wo);
   if (u.lobe < delta) return bsdf_sample(bsdf, wo, u);
   const bool both_sides = transmits_with_density(bsdf_flags(bsdf));
   const float u_side = (u.lobe - delta) / (1 - delta); // uniform again
-  vec3 wi = detail::strategy_direction(wo, u.disc, u_side, how, both_sides);
+  vec3 wi = strategy_direction(wo, u.disc, u_side, how, both_sides);
   BsdfEval e = direction_eval_pdf(bsdf, wo, wi, how);
   if (!(e.pdf > 0) || is_black(e.f_cos)) return std::nullopt;
   return BsdfSample{wi, e.f_cos / e.pdf, e.pdf, false};
+}
+
+} // namespace detail
+
+/// As BsdfModel::sample, but with `uniform` and `cosine` the lobes without delta are sampled over the
+/// hemisphere on wo's side, or over both where such a lobe transmits. Delta lobes are still taken with
+/// delta_probability, for no other density ever finds them; so every strategy has the same expectation.
+[[gnu::always_inline]] inline std::optional<BsdfSample> sample_direction(const Bsdf& bsdf, vec3 wo, BsdfU u,
+                                                                         DirectionSampling how) {
+  if (how == DirectionSampling::bsdf) return bsdf_sample(bsdf, wo, u);
+  return detail::sample_by_strategy(bsdf, wo, u, how);
 }
 
 } // namespace candela

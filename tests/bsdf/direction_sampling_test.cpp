@@ -49,6 +49,30 @@ TEST(DirectionSampling, PdfIntegratesToTheChanceOfNoDeltaLobe) {
   }
 }
 
+TEST(DirectionSampling, StrategiesCoverBothSidesOfWhatTransmitsWithADensity) {
+  Random random(5);
+  for (DirectionSampling how : {DirectionSampling::uniform, DirectionSampling::cosine})
+    for (bool both_sides : {false, true})
+      for (vec3 wo : outgoing_directions()) {
+        auto pdf = [&](vec3 wi) { return double(detail::strategy_pdf(wo, wi, how, both_sides)); };
+        EXPECT_NEAR(integrate_sphere(pdf), 1, 1e-4);
+        // The mean of a function of the density, both ways: over the sphere and by the samples.
+        double estimate = 0;
+        int behind = 0;
+        constexpr int kCount = 4000;
+        for (int i = 0; i < kCount; ++i) {
+          const BsdfU u = random.three();
+          const vec3 wi = detail::strategy_direction(wo, u.disc, u.lobe, how, both_sides);
+          ASSERT_GT(pdf(wi), 0);
+          estimate += double(sqr(wi.z)) / kCount;
+          behind += !same_hemisphere(wo, wi);
+        }
+        const double expected = integrate_sphere([&](vec3 wi) { return pdf(wi) * double(sqr(wi.z)); });
+        EXPECT_NEAR(estimate, expected, 0.03); // 6 sigma
+        EXPECT_NEAR(behind, both_sides ? kCount / 2 : 0, both_sides ? 3 * std::sqrt(double(kCount)) : 0.5);
+      }
+}
+
 TEST(DirectionSampling, GlassIsAllDelta) {
   Random random(2);
   Bsdf glass = Dielectric{1.5f, vec3(0.9f)};

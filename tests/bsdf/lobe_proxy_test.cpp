@@ -27,7 +27,8 @@ TEST(LobeProxy, LobesAreAsHighAndAsWideAsTheModels) {
       for (float off : {0.0f, 0.5f, 1.0f})
         for (const Bsdf& bsdf : {ggx, phong}) {
           vec3 wi = at_angle(angle + off * width);
-          float real = luminance(bsdf_eval(bsdf, wo, wi)), guess = estimate(bsdf_lobe_proxy(bsdf, wo), wo, wi);
+          float real = luminance(bsdf_eval(bsdf, wo, wi)),
+                guess = estimate(bsdf_lobe_proxy(bsdf, wo), wo, wi);
           float ratio = guess / real;
           EXPECT_GT(ratio, 0.6f) << bsdf.index() << ' ' << roughness << ' ' << angle << ' ' << off;
           EXPECT_LT(ratio, 2.5f) << bsdf.index() << ' ' << roughness << ' ' << angle << ' ' << off;

@@ -10,7 +10,8 @@ const Sampler kSampler(SamplerType::independent, 1);
 TEST(AbsorbingMedium, FollowsBeerAndLambert) {
   const Medium medium = AbsorbingMedium{{0.1f, 1, 2.5f}};
   const Ray ray{{1, 2, 3}, 0, {0, 7, 0}, kInfinity}; // of any length: the distance is in scene units
-  const Spectrum part = transmittance(ray, 0.7f, medium, kSampler), rest = transmittance(ray, 1.3f, medium, kSampler),
+  const Spectrum part = transmittance(ray, 0.7f, medium, kSampler),
+                 rest = transmittance(ray, 1.3f, medium, kSampler),
                  whole = transmittance(ray, 2, medium, kSampler);
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(part[c] * rest[c], whole[c], 1e-6f);

@@ -72,7 +72,7 @@ void PathTracer::sample_media(int depth, StopPoll& stop) {
     Path& path = paths_[i];
     path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
     Hit& hit = hits_[arrived_.size()]; // at i or before
-    hit = hits_[i];
+    if (&hit != &hits_[i]) hit = hits_[i];
     bool met = hit.t < kInfinity;
     if (passes) {
       if (i % kRaysPerPoll == 0 && stop.asked()) return;
@@ -291,6 +291,7 @@ void PathTracer::continue_paths() {
     survivors[count] = n;
     count += static_cast<std::size_t>(continuation_.survives[directions_[n].vertex->lane]);
   }
+  const bool has_media = scene_.has_media();
   for (std::uint32_t n : std::span(survivors.data(), count)) {
     const SampledDirection& direction = directions_[n];
     const Path& from = *direction.vertex->path;
@@ -305,7 +306,7 @@ void PathTracer::continue_paths() {
     path.specular_bounce = direction.delta;
     path.bsdf_pdf = direction.bsdf_pdf;
     path.light_context = vertices_.light_context[i];
-    if (!scene_.has_media()) continue;
+    if (!has_media) continue;
     MediumStack& media = next_media_.emplace_back(media_of(from));
     if (!same_hemisphere(vertices_.wo_local[i], continuation_.wi_local[i])) // it goes through the surface
       media.cross(vertices_.material[i]->media, vertices_.side[i] > 0);

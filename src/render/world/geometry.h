@@ -4,19 +4,10 @@
 // those keep it.
 
 #include "accel/accel.h"
+#include "render/world/surface_interaction.h"
 #include "scene/scene_desc.h"
 
 namespace candela {
-
-/// Where a ray met the scene. World space.
-struct SurfaceInteraction {
-  vec3 position{0};
-  vec3 position_error{0};         ///< absolute bound per axis
-  vec3 geometric_normal{0, 0, 1}; ///< unit; to the outside of spheres, by the winding of triangles
-  vec3 shading_normal{0, 0, 1};   ///< unit, on the side of geometric_normal
-  std::uint32_t material = 0;     ///< index into SceneDesc::materials
-  std::uint64_t emitter = 0;      ///< number among all primitives, see Geometry::emitter_count
-};
 
 /// Triangles in world space (small meshes, rectangles) or in the space of an object.
 struct TriangleSet {
@@ -69,6 +60,8 @@ public:
   /// Texture coordinates of a hit of `ray`, in the shape's own space: they go wherever its transform takes
   /// it. (0, 0) on meshes that have none. Apart from the rest, which most surfaces are content with.
   vec2 uv(const Ray& ray, const Hit& hit) const;
+  /// How the texture coordinates of uv() change about a hit of `ray`: apart from the rest likewise.
+  SurfaceTangents tangents(const Ray& ray, const Hit& hit) const;
   /// Material index of a hit, without the rest: what opacity needs.
   std::uint32_t material_of(const Hit& hit) const;
   /// Index into the instances that were built from.
