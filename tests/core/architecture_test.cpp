@@ -20,6 +20,7 @@ namespace {
 /// the layer's folder itself is its front door: it may include all, and no room includes it.
 const std::map<std::string, std::vector<std::string>, std::less<>>& rooms() {
   static const std::map<std::string, std::vector<std::string>, std::less<>> table = {
+      {"scene", {"textures", "materials"}},
       {"io", {"files", "images", "obj", "builder", "candela", "cs123"}},
       {"render", {"lights", "world", "camera", "integrators", "film", "denoise"}},
       {"app",

@@ -34,6 +34,16 @@ void DirectLight::choose(const RenderScene& scene, const LightSelection& selecti
   }
 }
 
+/// What textures say of the points that were sampled.
+void DirectLight::look_up_radiance(const RenderScene& scene) {
+  for (const LightQuery& query : std::span(queries_.data(), queried_)) {
+    const auto light = static_cast<std::uint32_t>(query.light - scene.lights().data());
+    const EmitterTexture* texture = scene.emitter_texture(light);
+    if (texture != nullptr && lights_.pdf[query.lane] > 0)
+      lights_.radiance.set(query.lane, texture->radiance(scene.geometry(), lights_.point[query.lane]));
+  }
+}
+
 /// In all lanes, also where nothing is asked: what comes of those is not looked at.
 [[gnu::noinline]] void DirectLight::set_aims(const VertexLanes& __restrict vertices,
                                              const LightSampleLanes& __restrict lights,
@@ -122,6 +132,7 @@ void DirectLight::aim(const RenderScene& scene, const VertexLanes& vertices, Lig
     draw(seekers, index, settings.light_samples);
     choose(scene, selection, vertices, seekers);
     sample_lights({queries_.data(), queried_}, lights_);
+    if (scene.has_textured_lights()) look_up_radiance(scene);
     set_aims(vertices, lights_, aims_);
     weigh(vertices, seekers, settings);
     look(scene, seekers, counts, stop);

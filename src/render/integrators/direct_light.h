@@ -63,6 +63,7 @@ private:
   void weigh(const VertexLanes& vertices, const LightSeekers& seekers, const PathSettings& settings);
   void set_ray(ShadowRay& shadow) const;
   void look(const RenderScene& scene, LightSeekers& seekers, RayCounts& counts, StopPoll& stop);
+  void look_up_radiance(const RenderScene& scene);
   static void set_aims(const VertexLanes& vertices, const LightSampleLanes& lights, AimedLanes& aims);
 
   // Of one light sample for each seeker:

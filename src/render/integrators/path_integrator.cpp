@@ -117,7 +117,9 @@ void PathTracer::meet_emitters(int depth) {
     Path& path = *arrived_[i];
     const Surface surface = scene_.geometry().surface(path.ray, hits_[i]);
     const bool outside = glm::dot(-path.ray.direction, surface.geometric_normal) > 0;
-    if (outside || material.two_sided_emission) add_emission(path, surface, material.emission, depth);
+    if (!outside && !material.two_sided_emission) continue;
+    const vec3 emission = emission_at(material, [&] { return scene_.geometry().uv(path.ray, hits_[i]); });
+    add_emission(path, surface, emission, depth);
   }
 }
 

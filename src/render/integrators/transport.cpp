@@ -22,7 +22,8 @@ bool detail::look_through_bodies(const RenderScene& scene, Ray& ray, const Sampl
   for (std::uint32_t crossing = 0; met; ++crossing) {
     const SurfaceMaterial& material = scene.material(scene.geometry().material_of(hit));
     advance(hit.t);
-    if (material.opacity >= 1 || sampler.get_1d(Dimension::opacity, crossing) < material.opacity) return true;
+    const float opacity = opacity_at(material, [&] { return scene.geometry().uv(ray, hit); });
+    if (opacity >= 1 || sampler.get_1d(Dimension::opacity, crossing) < opacity) return true;
     if (crossing + 1 == kMaxCrossings) return false;
     Surface s = scene.geometry().surface(ray, hit);
     if (passage != nullptr)
@@ -56,7 +57,7 @@ vec3 visibility(const RenderScene& scene, const Ray& towards, vec3 target, bool 
     auto hit = accel.intersect(ray);
     if (!hit) return through * passes(where, ray, whole_way);
     const SurfaceMaterial& material = scene.material(scene.geometry().material_of(*hit));
-    through *= 1 - material.opacity;
+    through *= 1 - opacity_at(material, [&] { return scene.geometry().uv(ray, *hit); });
     if (is_black(through)) return vec3(0);
     Surface s = scene.geometry().surface(ray, *hit);
     if (interiors != nullptr) {

@@ -1,30 +1,14 @@
 #pragma once
 // A Document made ready to render; const while it is.
 
-#include "bsdf/bsdf.h"
 #include "render/lights/emitter_lights.h"
 #include "render/lights/light_selection.h"
+#include "render/world/emitter_texture.h"
 #include "render/world/geometry.h"
+#include "render/world/surface_material.h"
 #include "scene/document.h"
 
 namespace candela {
-
-/// Where a surface bounds no body that light enters.
-inline constexpr std::uint16_t kNoInterior = 0xffff;
-
-/// A material as shading needs it.
-struct SurfaceMaterial {
-  Bsdf bsdf;
-  const Texture* diffuse_texture = nullptr; ///< multiplies the BSDF's diffuse part; null: none
-  UvTransform diffuse_uv;                   ///< of that texture
-  vec3 emission{0};                         ///< W/(m^2 sr)
-  float opacity = 1;
-  bool emissive = false;
-  bool two_sided_emission = false;
-  /// What is behind the surface: RenderScene::absorption() tells its absorption. The same number for bodies
-  /// that absorb the same; of a clear dielectric, too, where anything absorbs: it may lie inside of that.
-  std::uint16_t interior = kNoInterior;
-};
 
 class RenderScene {
 public:
@@ -51,6 +35,14 @@ public:
   const std::vector<Light>& lights() const { return lights_; }
   /// The light that a primitive is (part of), or kNoLight.
   std::uint32_t light_of(std::uint64_t emitter) const { return light_of_emitter_[emitter]; }
+  /// Whether any of the lights, by index, sends out what a texture says, so that samples of it must look.
+  bool has_textured_lights() const { return !emitter_textures_.empty(); }
+  /// Of that light; null where its radiance is the same everywhere.
+  const EmitterTexture* emitter_texture(std::uint32_t light) const {
+    return emitter_textures_.size() > light && emitter_textures_[light].material != nullptr
+               ? &emitter_textures_[light]
+               : nullptr;
+  }
   const std::vector<std::uint32_t>& infinite_lights() const { return infinite_lights_; }
 
   /// Choice of a light as path.light_choice has it: among all, or among those that no direction can hit by
@@ -64,9 +56,10 @@ private:
   std::shared_ptr<const Geometry> geometry_;
   std::vector<Instance> instances_; ///< what geometry_ was built from
   std::vector<std::shared_ptr<const Texture>> textures_;
-  std::vector<SurfaceMaterial> materials_;
+  SurfaceMaterials materials_;
   std::vector<Light> lights_;
   EmitterLights light_of_emitter_;
+  std::vector<EmitterTexture> emitter_textures_; ///< by light; empty where none is textured
   std::vector<std::uint32_t> infinite_lights_;
   std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
   LightSelection all_lights_, delta_lights_;
@@ -74,18 +67,13 @@ private:
   std::vector<vec3> absorptions_; ///< by interior; empty where nothing absorbs
 
   void add_materials(const Document& document);
-  void add_interiors(const std::vector<Material>& materials);
+  void add_interiors(const std::vector<const Material*>& materials);
   void add_emitters(const Progress* progress);
+  void add_emitter(std::uint64_t emitter, const SurfaceMaterial& material, Light light);
   void add_lights(const std::vector<LightDesc>& lights, const RenderScene* previous,
                   const Progress* progress);
   const EnvironmentMap* environment_map(const LightDesc& light, const RenderScene* previous,
                                         const Progress* progress);
 };
-
-/// The material's BSDF, without its texture.
-Bsdf make_bsdf(const Material& material);
-
-/// The BSDF of a material that has a texture, with it looked up at uv.
-Bsdf evaluate_bsdf(const SurfaceMaterial& material, vec2 uv);
 
 } // namespace candela
