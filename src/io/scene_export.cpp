@@ -53,10 +53,12 @@ std::vector<ExportedFile> export_candela_json(Document document, const std::stri
     throw output_error("scene", problem, "correct it before writing");
   PictureCopier copier(path);
   for (auto& texture : document.scene.textures) {
-    std::string source = copier.reachable(texture->source);
-    if (source == texture->source) continue;
+    const ImageTexture* image = texture->image();
+    if (image == nullptr) continue;
+    std::string source = copier.reachable(image->source);
+    if (source == image->source) continue;
     auto moved = std::make_shared<Texture>(*texture);
-    moved->source = source;
+    std::get<ImageTexture>(moved->model).source = source;
     texture = std::move(moved);
   }
   for (LightDesc& light : document.scene.lights) {

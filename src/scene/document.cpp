@@ -26,19 +26,24 @@ bool same_shape(const Shape& a, const Shape& b) {
   return mesh_a && mesh_b ? same_value(*mesh_a, *mesh_b) : a == b;
 }
 
+Invalidates compare_material(const Material& a, const Material& b) {
+  if (a.model.index() != b.model.index()) return material_type_field().invalidates;
+  auto &x = const_cast<Material&>(a), &y = const_cast<Material&>(b);
+  Invalidates worst = Invalidates::nothing;
+  for (const MaterialField& row : material_fields(a)) {
+    const bool same = row.parameter != nullptr ? row.parameter(x).equals(row.parameter(y))
+                                               : field_equal(row, row.address(x), row.address(y));
+    if (!same) worst = std::max(worst, row.invalidates);
+  }
+  return worst;
+}
+
 /// Materials differ in ways that only shading sees, or in what the lights are made of.
 Invalidates compare_materials(const std::vector<Material>& a, const std::vector<Material>& b) {
   if (a.size() != b.size()) return Invalidates::scene;
   Invalidates worst = Invalidates::nothing;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i] == b[i]) continue;
-    for (const auto& row : material_fields())
-      if (!field_equal(row, row.address(const_cast<Material&>(a[i])),
-                       row.address(const_cast<Material&>(b[i]))))
-        worst = std::max(worst, row.invalidates);
-    if (a[i].diffuse_texture != b[i].diffuse_texture || a[i].diffuse_uv != b[i].diffuse_uv)
-      worst = std::max(worst, Invalidates::image);
-  }
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (!(a[i] == b[i])) worst = std::max(worst, compare_material(a[i], b[i]));
   return worst;
 }
 
@@ -175,15 +180,12 @@ std::string document_problem(const Document& document) {
   if (auto problem = row_problem(settings_table(), document, ""); !problem.empty()) return problem;
   const SceneDesc& scene = document.scene;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const Material& material = scene.materials[i];
-    if (auto p = row_problem(material_fields(), material, fmt::format("materials[{}].", i)); !p.empty())
-      return p;
-    if (material.diffuse_texture < -1 || material.diffuse_texture >= static_cast<int>(scene.textures.size()))
-      return fmt::format("materials[{}].diffuse_texture: there is no texture {}", i,
-                         material.diffuse_texture);
-    const UvTransform& uv = material.diffuse_uv;
-    if (!is_finite(vec3(uv.scale, 0)) || !is_finite(vec3(uv.offset, 0)))
-      return fmt::format("materials[{}].diffuse_uv_scale: not finite; give finite numbers", i);
+    if (auto p = material_problem(scene.materials[i], scene.textures.size()); !p.empty())
+      return fmt::format("materials[{}].{}", i, p);
+  }
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    if (!scene.textures[i]) return fmt::format("textures[{}]: there is none", i);
+    if (auto p = texture_problem(*scene.textures[i]); !p.empty()) return fmt::format("textures[{}].{}", i, p);
   }
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const LightDesc& light = scene.lights[i];

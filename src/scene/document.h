@@ -8,6 +8,7 @@
 #include "sampling/direction_type.h"
 #include "sampling/filter_type.h"
 #include "sampling/sampler_type.h"
+#include "scene/materials/material_choice.h"
 #include "scene/scene_desc.h"
 
 namespace candela {
@@ -18,7 +19,6 @@ enum class LightChoiceBy : int { power, contribution };
 enum class MisHeuristic : int { balance, power };
 enum class RussianRoulette : int { off, throughput, fixed };
 enum class PathComponent : int { all, emitted, direct, indirect };
-enum class BrdfOverride : int { none, diffuse, phong, ggx, mirror, dielectric };
 struct FilmSettings {
   int width = 512;
   int height = 512;
@@ -61,15 +61,14 @@ struct PathSettings {
   bool operator==(const PathSettings&) const = default;
 };
 
-/// One material for the whole scene: its type and parameters; emission stays each surface's own.
+/// One material for the whole scene: its type and values; emission and opacity stay each surface's own.
 struct OverrideSettings {
-  BrdfOverride brdf = BrdfOverride::none;
-  vec3 diffuse{0.5f};
-  vec3 specular{0.9f};
-  float exponent = 40;
-  float roughness = 0.3f;
-  float ior = 1.5f;
+  int brdf = 0; ///< 0: none; else one more than the index of the material's type
+  MaterialChoice values;
+  OverrideSettings();
   bool operator==(const OverrideSettings&) const = default;
+
+  bool is_on() const { return brdf > 0; }
 };
 
 /// Blocks of pixels whose error is small stop early; the means of those that stop by luck are biased.
@@ -110,6 +109,9 @@ struct Document {
 /// The settings table (the camera's values among them).
 std::span<const Field<Document>> settings_table();
 const Field<Document>* find_setting(std::string_view key);
+
+/// The material that all surfaces get where the override is on.
+Material overriding_material(const OverrideSettings& settings);
 
 /// `--set KEY=VALUE`; usage errors name the nearest key or the row's domain.
 void apply_setting(Document& document, std::string_view assignment);

@@ -4,9 +4,10 @@
 
 #include "core/bounds.h"
 #include "core/fields.h"
-#include "imaging/texture.h"
+#include "scene/materials/material.h"
 #include "scene/mesh.h"
 #include "scene/panorama.h"
+#include "scene/textures/texture.h"
 
 #include <memory>
 #include <optional>
@@ -38,39 +39,6 @@ struct Camera {
     return focus_distance > 0 ? focus_distance : glm::length(target - position);
   }
 };
-
-/// Where a texture is looked up: at scale * uv + offset.
-struct UvTransform {
-  vec2 scale{1}, offset{0};
-  bool operator==(const UvTransform&) const = default;
-};
-
-enum class MaterialType : int { diffuse, phong, ggx, mirror, dielectric };
-
-/// One flat struct for every type, so that a live switch of the type keeps what both types know.
-struct Material {
-  std::string name;
-  MaterialType type = MaterialType::diffuse;
-  vec3 diffuse{0.5f};              ///< Lambertian reflectance (diffuse, phong, mirror)
-  int diffuse_texture = -1;        ///< index into SceneDesc::textures, multiplies `diffuse`; -1: none
-  UvTransform diffuse_uv;          ///< of that texture
-  vec3 specular{0};                ///< specular reflectance; at normal incidence for ggx (F0)
-  float exponent = 40;             ///< of the Phong lobe
-  float roughness = 0.3f;          ///< of ggx: alpha = roughness^2
-  float ior = 1.5f;                ///< of dielectric, inside over outside
-  vec3 transmittance{1};           ///< of dielectric: tint of each crossing of the surface
-  vec3 absorption{0};              ///< of dielectric: sigma_a, 1/scene unit (Beer-Lambert)
-  float opacity = 1;               ///< share of light that meets the surface at all
-  vec3 emission{0};                ///< radiance, W/(m^2 sr)
-  bool two_sided_emission = false; ///< otherwise only from the side of the geometric normal
-  bool operator==(const Material&) const = default;
-};
-
-/// What a material of the type is where nothing else is said: a mirror reflects all and has no diffuse part.
-Material default_material(MaterialType type);
-/// Another type. Values that both types use are kept, but that a mirror becomes one without a diffuse part;
-/// the others become the new type's defaults.
-void change_type(Material& material, MaterialType type);
 
 enum class LightType : int { point, directional, constant, spot, environment };
 
@@ -170,8 +138,7 @@ Bounds3 shape_bounds(const Shape& shape);
 /// squares where there is nothing else. Within kMaxCoordinate.
 Bounds3 instance_bounds(const std::vector<Instance>& instances);
 
-/// Rows of the editable values; names, transforms and texture links are not in them.
-std::span<const Field<Material>> material_fields();
+/// Rows of the editable values; the name and the panorama are not in them.
 std::span<const Field<LightDesc>> light_fields();
 
 /// What files call the kinds of shapes, by the index of the variant: "mesh", "sphere" …
@@ -186,8 +153,7 @@ std::string shape_problem(const Shape& shape);
 /// The row with limits that leave no shape_problem, as the shape's other values are: for hands that edit it.
 FieldInfo shape_limits(const Shape& shape, const Field<Shape>& row);
 
-/// Whether a material (light) of this type looks at the field: panels show only these.
-bool material_uses(MaterialType type, std::string_view key);
+/// Whether a light of this type looks at the field: panels show only these.
 bool light_uses(LightType type, std::string_view key);
 
 } // namespace candela

@@ -7,7 +7,8 @@ std::set<std::string> source_files(const SceneDesc& scene) {
   for (const Instance& instance : scene.instances)
     if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape))
       files.insert((*mesh)->source);
-  for (const auto& texture : scene.textures) files.insert(texture->source);
+  for (const auto& texture : scene.textures)
+    if (const auto* image = texture->image()) files.insert(image->source);
   for (const LightDesc& light : scene.lights)
     if (light.panorama) files.insert(light.panorama->sources.begin(), light.panorama->sources.end());
   files.erase("");

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <deque>
 #include <vector>
 
 namespace candela {
@@ -22,7 +24,15 @@ constexpr std::string_view kHeuristics[] = {"balance", "power"};
 constexpr std::string_view kDirections[] = {"uniform", "cosine", "bsdf"};
 constexpr std::string_view kRoulette[] = {"off", "throughput", "fixed"};
 constexpr std::string_view kComponents[] = {"all", "emitted", "direct", "indirect"};
-constexpr std::string_view kOverrides[] = {"none", "diffuse", "phong", "ggx", "mirror", "dielectric"};
+/// "none", then the materials' types.
+std::span<const std::string_view> override_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all{"none"};
+    all.insert(all.end(), material_type_names().begin(), material_type_names().end());
+    return all;
+  }();
+  return names;
+}
 constexpr std::string_view kViews[] = {"radiance", "albedo",   "normal",   "geometric_normal", "depth",
                                        "uv",       "material", "bvh_cost", "depth_share",      "light_share",
                                        "variance", "samples",  "nonfinite"};
@@ -34,7 +44,8 @@ constexpr auto kImage = Invalidates::image;
 
 #define AT(member) [](Document& d) -> void* { return &d.member; }
 
-const Field<Document> kTable[] = {
+/// All but the override, whose rows follow from the materials'.
+const Field<Document> kRows[] = {
     {{"sampler.type", FieldType::choice, 0, 0, "", "Where the random numbers come from", kImage, kSamplers},
      AT(settings.sampler.type)},
     {{"sampler.seed", FieldType::integer, 0, 2147483647, "", "Another seed, another noise of the same image"},
@@ -124,20 +135,6 @@ const Field<Document> kTable[] = {
     {{"adaptive.min_spp", FieldType::integer, 2, 1000000, "samples",
       "Samples that every pixel gets before a block may stop"},
      AT(settings.adaptive.min_spp)},
-
-    {{"override.brdf", FieldType::choice, 0, 0, "", "Renders every surface as this one material", kImage,
-      kOverrides},
-     AT(settings.override_brdf.brdf)},
-    {{"override.diffuse", FieldType::color, 0, 1, "", "Lambertian reflectance of the override"},
-     AT(settings.override_brdf.diffuse)},
-    {{"override.specular", FieldType::color, 0, 1, "", "Specular reflectance of the override"},
-     AT(settings.override_brdf.specular)},
-    {{"override.exponent", FieldType::real, 0, 1e6, "", "Phong exponent of the override", kImage, {}, true},
-     AT(settings.override_brdf.exponent)},
-    {{"override.roughness", FieldType::real, 0, 1, "", "GGX roughness of the override"},
-     AT(settings.override_brdf.roughness)},
-    {{"override.ior", FieldType::real, 0.1, 10, "", "Index of refraction of the override"},
-     AT(settings.override_brdf.ior)},
 
     {{"film.width", FieldType::integer, 1, 16384, "pixels", "Width of the image"}, AT(settings.film.width)},
     {{"film.height", FieldType::integer, 1, 16384, "pixels", "Height of the image"},
@@ -264,14 +261,61 @@ const Field<Document> kTable[] = {
 
 #undef AT
 
+template <std::size_t I>
+void* override_value(Document& d) {
+  return material_choice_fields()[I].address(d.settings.override_brdf.values);
+}
+
+std::vector<Field<Document>> override_rows() {
+  std::vector<Field<Document>> out = {
+      {{"override.brdf", FieldType::choice, 0, 0, "", "Renders every surface as this one material", kImage,
+        override_names()},
+       [](Document& d) -> void* { return &d.settings.override_brdf.brdf; }}};
+  static std::deque<std::string> texts; // what the rows' views look at
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    for (auto address : {override_value<I>...}) {
+      FieldInfo row = material_choice_fields()[out.size() - 1];
+      row.key = texts.emplace_back(fmt::format("override.{}", row.key));
+      row.help = texts.emplace_back(fmt::format("{}, of the override", row.help));
+      out.push_back({row, address});
+    }
+  }
+  (std::make_index_sequence<kMaterialKeyCount>());
+  return out;
+}
+
+std::vector<Field<Document>> whole_table() {
+  std::vector<Field<Document>> table(std::begin(kRows), std::end(kRows));
+  const auto film = std::ranges::find(table, "film.width", &FieldInfo::key);
+  const auto rows = override_rows();
+  table.insert(film, rows.begin(), rows.end());
+  return table;
+}
+
 } // namespace
 
-std::span<const Field<Document>> settings_table() { return kTable; }
+std::span<const Field<Document>> settings_table() {
+  static const std::vector<Field<Document>> table = whole_table();
+  return table;
+}
 
 const Field<Document>* find_setting(std::string_view key) {
-  for (const auto& row : kTable)
+  for (const auto& row : settings_table())
     if (row.key == key) return &row;
   return nullptr;
+}
+
+OverrideSettings::OverrideSettings() {
+  // Black would say little of a gloss or a metal.
+  constexpr float kShown = 0.9f;
+  for (const auto& row : material_choice_fields())
+    if (row.key == "specular") *static_cast<vec3*>(row.address(values)) = vec3(kShown);
+}
+
+Material overriding_material(const OverrideSettings& settings) {
+  MaterialChoice choice = settings.values;
+  choice.type = settings.brdf - 1;
+  return chosen_material(choice, false);
 }
 
 void apply_setting(Document& document, std::string_view assignment) {
@@ -282,7 +326,7 @@ void apply_setting(Document& document, std::string_view assignment) {
   const auto* row = find_setting(key);
   if (row == nullptr) {
     std::vector<std::string_view> keys;
-    for (const auto& r : kTable) keys.push_back(r.key);
+    for (const auto& r : settings_table()) keys.push_back(r.key);
     std::string near = nearest_name(key, keys);
     throw usage_error(fmt::format("--set {}", key), "there is no such setting",
                       near.empty() ? "see `candela settings`" : fmt::format("did you mean {}?", near));

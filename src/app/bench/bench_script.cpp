@@ -19,7 +19,14 @@ Instance& hardest_object(SceneDesc& scene) {
 }
 
 bool emits(const Material& material) { return material.emission != vec3(0); }
-bool reflects(const Material& material) { return !emits(material) && material.diffuse != vec3(0); }
+vec3* diffuse_of(Material& material) {
+  const ParameterRef parameter = find_parameter(material, "diffuse");
+  return parameter ? &parameter.color->value : nullptr;
+}
+bool reflects(const Material& material) {
+  const vec3* diffuse = diffuse_of(const_cast<Material&>(material));
+  return !emits(material) && diffuse != nullptr && *diffuse != vec3(0);
+}
 bool shines(const LightDesc& light) { return light.scale != 0 && light.color != vec3(0); }
 
 } // namespace
@@ -59,12 +66,12 @@ void apply_edit(InputKind kind, int step, Document& document) {
   switch (kind) {
   case InputKind::camera:
   case InputKind::flight: break;
-  case InputKind::material: std::ranges::find_if(scene.materials, reflects)->diffuse *= factor; break;
+  case InputKind::material: *diffuse_of(*std::ranges::find_if(scene.materials, reflects)) *= factor; break;
   case InputKind::light:
     if (auto light = std::ranges::find_if(scene.lights, shines); light != scene.lights.end())
       light->scale *= factor;
     else
-      std::ranges::find_if(scene.materials, emits)->emission *= factor;
+      std::ranges::find_if(scene.materials, emits)->emission.value *= factor;
     break;
   case InputKind::setting: document.settings.sampler.seed = step + 1; break;
   case InputKind::object: {

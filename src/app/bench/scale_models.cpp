@@ -41,19 +41,19 @@ double cell_size(glm::dvec2 uv, double cells) {
 
 double length_squared(glm::dvec2 v) { return glm::dot(v, v); }
 
-void set_texel(Texture& texture, int x, int y, glm::dvec3 linear) {
+void set_texel(Texels& texture, int x, int y, glm::dvec3 linear) {
+  auto& bytes = std::get<std::vector<std::uint8_t>>(texture.data);
   const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width) +
                               static_cast<std::size_t>(x));
   for (std::size_t c = 0; c < 3; ++c) {
     const float v = srgb_from_linear(std::clamp(static_cast<float>(linear[static_cast<int>(c)]), 0.0f, 1.0f));
-    texture.srgb[at + c] = static_cast<std::uint8_t>(v * 255 + 0.5f);
+    bytes[at + c] = static_cast<std::uint8_t>(v * 255 + 0.5f);
   }
 }
 
-Texture empty_texture(int size) {
-  Texture out;
-  out.width = out.height = size;
-  out.srgb.resize(3 * static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+Texels empty_texture(int size) {
+  Texels out{size, size, 3, {}};
+  out.data = std::vector<std::uint8_t>(3 * out.texel_count());
   return out;
 }
 
@@ -193,8 +193,8 @@ Mesh mountain_mesh(std::size_t triangles) {
   return mesh;
 }
 
-Texture mountain_texture(int size) {
-  Texture out = empty_texture(size);
+Texels mountain_texture(int size) {
+  Texels out = empty_texture(size);
   const glm::dvec3 grass(0.075, 0.09, 0.03), dry(0.17, 0.14, 0.06), dark_rock(0.13, 0.115, 0.1),
       light_rock(0.3, 0.265, 0.23), scree(0.26, 0.235, 0.205), snow(0.82, 0.84, 0.87);
   const double step = 1.0 / size;
@@ -274,8 +274,8 @@ Mesh stone_mesh(int cells, std::uint32_t seed) {
   return mesh;
 }
 
-Texture stone_texture(int size) {
-  Texture out = empty_texture(size);
+Texels stone_texture(int size) {
+  Texels out = empty_texture(size);
   const glm::dvec3 dark(0.16, 0.15, 0.135), light(0.42, 0.39, 0.35), lichen(0.36, 0.33, 0.13);
 #pragma omp parallel for schedule(dynamic, 4)
   for (int y = 0; y < size; ++y)

@@ -2,7 +2,7 @@
 // What the scenes of `candela bench scale` are made of: mountains and stones of as many triangles as are
 // asked for, and the pictures that colour them. Pure functions: the same arguments give the same bytes.
 
-#include "imaging/texture.h"
+#include "imaging/texels.h"
 #include "scene/mesh.h"
 
 namespace candela {
@@ -16,11 +16,11 @@ double mountain_height(glm::dvec2 p, double spacing = 0);
 /// (>= 1000) of them, and hardly more.
 Mesh mountain_mesh(std::size_t triangles);
 /// For the ground: size^2 texels.
-Texture mountain_texture(int size);
+Texels mountain_texture(int size);
 
 /// A stone of 12 cells^2 triangles about the origin, of a radius about 1, its edges worn.
 Mesh stone_mesh(int cells, std::uint32_t seed);
 /// For stones.
-Texture stone_texture(int size);
+Texels stone_texture(int size);
 
 } // namespace candela

@@ -68,8 +68,8 @@ constexpr const char* kStonesTail = R"(
 }
 )";
 
-void write_texture(const Texture& texture, const std::string& path) {
-  write_srgb8_image(texture.width, texture.height, texture.srgb, path);
+void write_texture(const Texels& texels, const std::string& path) {
+  write_srgb8_image(texels.width, texels.height, srgb8_texels(texels), path);
 }
 
 } // namespace

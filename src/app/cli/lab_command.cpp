@@ -6,7 +6,6 @@
 #include "app/platform/streams.h"
 #include "core/error.h"
 #include "lab/lessons.h"
-#include "render/world/render_scene.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -167,10 +166,9 @@ struct LabCommand::Options {
     print(report(lesson));
   }
   void brdf() const {
-    Material material = lab_material();
-    for (const auto* row : scattering_rows())
-      read_field(*row, material, texts("brdf"), material_option(*row));
-    BrdfLesson lesson(make_bsdf(material), read<BrdfOptions>("brdf", brdf_fields()), source("brdf"),
+    MaterialChoice material = lab_material();
+    for (const auto& row : scattering_rows()) read_field(row, material, texts("brdf"), material_option(row));
+    BrdfLesson lesson(lab_bsdf(material), read<BrdfOptions>("brdf", brdf_fields()), source("brdf"),
                       static_cast<std::uint64_t>(run_options("brdf").samples));
     run_to_end(lesson);
     print(report(lesson, material));
@@ -221,7 +219,7 @@ LabCommand::LabCommand(CLI::App& program) : options_(std::make_unique<Options>()
       for (const auto& row : warp_fields()) add(row, option_name(row.key));
     if (info.name == "brdf") {
       for (const auto& row : brdf_fields()) add(row, option_name(row.key));
-      for (const auto* row : scattering_rows()) add(*row, material_option(*row));
+      for (const auto& row : scattering_rows()) add(row, material_option(row));
     }
   }
 }

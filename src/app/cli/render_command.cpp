@@ -163,7 +163,8 @@ void check_render_outputs(const RenderOptions& options, const std::vector<std::s
 /// The pictures that the scene is made of.
 std::vector<std::string> picture_files(const SceneDesc& scene) {
   std::vector<std::string> files;
-  for (const auto& texture : scene.textures) files.push_back(texture->source);
+  for (const auto& texture : scene.textures)
+    if (const auto* image = texture->image()) files.push_back(image->source);
   for (const LightDesc& light : scene.lights)
     if (light.panorama)
       files.insert(files.end(), light.panorama->sources.begin(), light.panorama->sources.end());

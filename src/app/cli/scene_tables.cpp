@@ -58,10 +58,41 @@ std::string typed_table(std::span<const Field<T>> rows, Made made, Uses uses) {
 } // namespace
 
 std::string materials_markdown() {
-  return typed_table(
-      material_fields(),
-      [](std::string_view type) { return scene_with("materials", type).materials.front(); },
-      [](int type, std::string_view key) { return material_uses(static_cast<MaterialType>(type), key); });
+  const auto types = material_type_names();
+  std::vector<Material> defaults;
+  for (std::string_view type : types) defaults.push_back(scene_with("materials", type).materials.front());
+  const FieldInfo& type_row = material_type_field();
+  std::string out = "| key | of | values | default | meaning |\n|---|---|---|---|---|\n";
+  out += fmt::format("| `{}` | all | {} | `{}` | {} |\n", type_row.key, markdown_cell(field_domain(type_row)),
+                     material_type_name(Material()), markdown_cell(type_row.help));
+  // A line for each key that means the same to its types, in the order in which the types name them; what all
+  // have comes last.
+  std::vector<const MaterialField*> lines;
+  auto is_same = [](const FieldInfo& a, const FieldInfo& b) {
+    return a.key == b.key && a.help == b.help && field_domain(a) == field_domain(b);
+  };
+  for (const Material& material : defaults)
+    for (const MaterialField& row : material_fields(material))
+      if (std::ranges::none_of(lines, [&](const auto* line) { return is_same(*line, row); }))
+        lines.push_back(&row);
+  auto is_common = [](const MaterialField* row) {
+    return std::ranges::find(common_material_fields(), row->key, &FieldInfo::key) !=
+           common_material_fields().end();
+  };
+  std::ranges::stable_partition(lines, [&](const auto* row) { return !is_common(row); });
+  for (const MaterialField* line : lines) {
+    std::vector<std::string_view> of;
+    std::vector<std::string> values;
+    for (const Material& material : defaults)
+      for (const MaterialField& row : material_fields(material))
+        if (is_same(*line, row))
+          of.push_back(material_type_name(material)), values.push_back(field_text(row, material));
+    out += fmt::format("| `{}` | {} | {}{} | {} | {} |\n", line->key,
+                       of.size() == types.size() ? "all" : markdown_cell(joined(of)),
+                       markdown_cell(field_domain(*line)), line->parameter != nullptr ? ", or a texture" : "",
+                       default_cell(of, values), markdown_cell(line->help));
+  }
+  return out;
 }
 
 std::string lights_markdown() {

@@ -1,5 +1,7 @@
 #include "app/lab/lab_inputs.h"
 
+#include "render/world/surface_material.h"
+
 namespace candela {
 
 std::vector<const Field<Document>*> sampler_rows() {
@@ -13,32 +15,32 @@ SampleSource sample_source(const SamplerSettings& settings) {
   return {settings.type, static_cast<std::uint64_t>(settings.seed), settings.strata};
 }
 
-Material lab_material() {
-  Material material;
-  material.type = MaterialType::ggx;
-  material.diffuse = vec3(0.4f);
-  material.specular = vec3(0.6f);
-  material.roughness = 0.5f;
+MaterialChoice lab_material() {
+  MaterialChoice material;
+  constexpr std::pair<std::string_view, std::string_view> kValues[] = {
+      {"type", "ggx"}, {"diffuse", "0.4"}, {"specular", "0.6"}, {"roughness", "0.5"}};
+  for (auto [key, text] : kValues)
+    for (const auto& row : scattering_rows())
+      if (row.key == key) field_from_text(row, row.address(material), text);
   return material;
 }
 
-bool scattering_uses(MaterialType type, std::string_view key) {
-  // These are of every type or of the inside: a BSDF knows nothing of them.
-  for (std::string_view other : {"absorption", "opacity", "emission", "two_sided_emission"})
-    if (key == other) return false;
-  return material_uses(type, key);
-}
-
-std::vector<const Field<Material>*> scattering_rows() {
-  const auto types = static_cast<int>(material_fields()[0].choices.size());
-  std::vector<const Field<Material>*> rows;
-  for (const auto& row : material_fields()) {
-    bool used = false;
-    for (int type = 0; type < types; ++type)
-      used |= scattering_uses(static_cast<MaterialType>(type), row.key);
-    if (used) rows.push_back(&row);
-  }
+std::span<const Field<MaterialChoice>> scattering_rows() {
+  static const std::vector<Field<MaterialChoice>> rows = [] {
+    std::vector<Field<MaterialChoice>> out = {
+        {material_type_field(), [](MaterialChoice& m) -> void* { return &m.type; }}};
+    for (const auto& row : material_choice_fields())
+      if (is_parameter_key(row.key)) out.push_back(row);
+    return out;
+  }();
   return rows;
 }
+
+bool scattering_uses(int type, std::string_view key) {
+  return key == material_type_field().key ||
+         (is_parameter_key(key) && find_material_field(type, key) != nullptr);
+}
+
+Bsdf lab_bsdf(const MaterialChoice& material) { return make_bsdf(chosen_material(material, true)); }
 
 } // namespace candela

@@ -2,6 +2,7 @@
 // What the lessons are given, from the settings' and the materials' own tables: shared by the command and the
 // panel.
 
+#include "bsdf/bsdf.h"
 #include "lab/source.h"
 #include "scene/document.h"
 
@@ -14,9 +15,11 @@ std::vector<const Field<Document>*> sampler_rows();
 SampleSource sample_source(const SamplerSettings& settings);
 
 /// The material that the lesson `brdf` begins with, which shows something of every type.
-Material lab_material();
-/// Rows that say how a material scatters at its surface.
-std::vector<const Field<Material>*> scattering_rows();
-bool scattering_uses(MaterialType type, std::string_view key);
+MaterialChoice lab_material();
+/// Rows that say how a material scatters at its surface: its type and its parameters.
+std::span<const Field<MaterialChoice>> scattering_rows();
+/// Whether a material of the type looks at the row.
+bool scattering_uses(int type, std::string_view key);
+Bsdf lab_bsdf(const MaterialChoice& material);
 
 } // namespace candela

@@ -167,10 +167,10 @@ LabReport report(const WarpLesson& lesson) {
   return out.done();
 }
 
-LabReport report(const BrdfLesson& lesson, const Material& material) {
+LabReport report(const BrdfLesson& lesson, const MaterialChoice& material) {
   Writer out("brdf");
-  for (const auto* row : scattering_rows())
-    if (scattering_uses(material.type, row->key)) out.field(*row, field_text(*row, material));
+  for (const auto& row : scattering_rows())
+    if (scattering_uses(material.type, row.key)) out.field(row, field_text(row, material));
   out.fields(brdf_fields(), lesson.options());
   out.source(lesson.source());
   out.line("samples", fmt::format("{}", lesson.done()));

@@ -19,7 +19,7 @@ LabReport report(const Estimation<PiExperiment>& lesson);
 LabReport report(const Estimation<SolidAngleExperiment>& lesson);
 LabReport report(const Estimation<IntegralExperiment>& lesson);
 LabReport report(const WarpLesson& lesson);
-LabReport report(const BrdfLesson& lesson, const Material& material);
+LabReport report(const BrdfLesson& lesson, const MaterialChoice& material);
 
 /// The points themselves; the text is CSV.
 LabReport report_points(const PointsOptions& options, const SampleSource& source, std::uint32_t count);

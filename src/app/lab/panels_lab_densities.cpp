@@ -167,10 +167,10 @@ private:
 class BrdfPage : public LabPage {
 public:
   void draw(Ui& ui, Document& sampler) override {
-    const Material default_material = lab_material();
-    for (const auto* row : scattering_rows())
-      if (scattering_uses(material_.type, row->key))
-        lab_field(ui, *row, material_, default_material, row->key == "type" ? "material" : "");
+    const MaterialChoice initial_material = lab_material();
+    for (const auto& row : scattering_rows())
+      if (scattering_uses(material_.type, row.key))
+        lab_field(ui, row, material_, initial_material, row.key == "type" ? "material" : "");
     const BrdfOptions defaults;
     for (const auto& row : brdf_fields()) lab_field(ui, row, options_, defaults);
     sampler_fields(ui, sampler);
@@ -214,7 +214,7 @@ private:
   struct Inputs {
     SampleSource source;
     std::uint64_t samples;
-    Material material;
+    MaterialChoice material;
     BrdfOptions options;
     bool operator==(const Inputs&) const = default;
   };
@@ -224,14 +224,14 @@ private:
     if (inputs_ == inputs) return;
     inputs_ = inputs;
     job_.start([inputs] {
-      return BrdfLesson(make_bsdf(inputs.material), inputs.options, inputs.source, inputs.samples);
+      return BrdfLesson(lab_bsdf(inputs.material), inputs.options, inputs.source, inputs.samples);
     });
   }
 
   void draw_lobe(const Canvas& canvas, float unit) const {
     draw_ground(canvas, view_);
     draw_arrow(canvas, view_, vec3(0), {0, 0, 1.15f}, IM_COL32(150, 150, 150, 255), 1.2f * unit);
-    const Bsdf bsdf = make_bsdf(material_);
+    const Bsdf bsdf = lab_bsdf(material_);
     const vec3 wo = options_.wo();
     // The surface r(wi) = f cos, scaled to reach 1, over polar coordinates about the mirror direction whose
     // rows crowd there, where lobes are narrow.
@@ -295,7 +295,7 @@ private:
   }
 
   Samples samples_;
-  Material material_ = lab_material();
+  MaterialChoice material_ = lab_material();
   BrdfOptions options_;
   OrbitView view_;
   LabJob<BrdfLesson> job_;

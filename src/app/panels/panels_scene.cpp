@@ -44,14 +44,31 @@ void panorama_of(Ui& ui, ViewerState& state, const LightDesc& light) {
   if ((entered || pressed) && !state.panorama_input.empty()) state.open_paths = {state.panorama_input};
 }
 
+/// The value as it was loaded, if the material still is the scene's, of the same type.
+void* initial_of(const MaterialField& row, std::vector<Material>& home, const Material& material,
+                 std::size_t index) {
+  const bool known = index < home.size() && home[index].model.index() == material.model.index();
+  return known ? row.address(home[index]) : nullptr;
+}
+
 void emission_fields_of(Ui& ui, ViewerState& state, std::size_t index) {
   Material& material = state.document.scene.materials[index];
-  for (const auto& row : material_fields()) {
+  for (const MaterialField& row : common_material_fields()) {
     if (row.key != "emission" && row.key != "two_sided_emission") continue;
     FieldContext context;
-    context.initial = initial_of(row, state.home.scene.materials, index);
+    context.initial = initial_of(row, state.home.scene.materials, material, index);
     state.edited |= ui.field(fmt::format("emitter.{}", row.key), row, row.address(material), context);
   }
+}
+
+void material_type_of(Ui& ui, ViewerState& state, std::size_t index) {
+  Material& material = state.document.scene.materials[index];
+  const auto& home = state.home.scene.materials;
+  int type = material_type(material), initial = index < home.size() ? material_type(home[index]) : type;
+  FieldContext context;
+  context.initial = &initial;
+  state.edited |= ui.field("material.type", material_type_field(), &type, context);
+  change_type(material, type);
 }
 
 } // namespace
@@ -74,20 +91,13 @@ void materials_panel(Ui& ui, ViewerState& state) {
   const auto index = static_cast<std::size_t>(state.selected_material);
   Material& material = materials[index];
   ImGui::PushID(state.selected_material); // a half-typed value belongs to one material
-  for (const auto& row : material_fields()) {
-    if (!material_uses(material.type, row.key)) continue;
+  material_type_of(ui, state, index);
+  for (const MaterialField& row : material_fields(material)) {
     FieldContext context;
-    context.initial = initial_of(row, state.home.scene.materials, index);
-    const MaterialType type = material.type;
+    context.initial = initial_of(row, state.home.scene.materials, material, index);
     state.edited |= ui.field(fmt::format("material.{}", row.key), row, row.address(material), context);
-    if (material.type != type) change_type(material, std::exchange(material.type, type));
   }
   ImGui::PopID();
-  if (material.diffuse_texture >= 0 &&
-      static_cast<std::size_t>(material.diffuse_texture) < state.document.scene.textures.size())
-    ui.readout("texture",
-               state.document.scene.textures[static_cast<std::size_t>(material.diffuse_texture)]->name,
-               "A picture that multiplies the diffuse colour");
 }
 
 void lights_panel(Ui& ui, ViewerState& state) {

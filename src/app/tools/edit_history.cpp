@@ -73,6 +73,18 @@ std::string joined(const std::vector<std::string_view>& keys) {
   return fmt::format("{}", fmt::join(keys, ", "));
 }
 
+std::string material_edit(const Material& a, const Material& b) {
+  if (a.model.index() != b.model.index()) return std::string(material_type_field().key);
+  std::vector<std::string_view> keys;
+  auto &x = const_cast<Material&>(a), &y = const_cast<Material&>(b);
+  for (const MaterialField& row : material_fields(a)) {
+    const bool same = row.parameter != nullptr ? row.parameter(x).equals(row.parameter(y))
+                                               : field_equal(row, row.address(x), row.address(y));
+    if (!same) keys.push_back(row.key);
+  }
+  return joined(keys);
+}
+
 std::string instance_edit(const Instance& a, const Instance& b) {
   if (a.world_from_object != b.world_from_object) {
     bool moved_only = true;
@@ -98,9 +110,7 @@ std::string edit_name(const EditState& before, const EditState& after) {
     if (!part.empty()) parts.push_back(std::move(part));
   };
   add(list_edit(a.instances, b.instances, "Object", "objects", instance_edit));
-  add(list_edit(a.materials, b.materials, "Material", "materials", [](const Material& x, const Material& y) {
-    return joined(changed_keys(material_fields(), x, y));
-  }));
+  add(list_edit(a.materials, b.materials, "Material", "materials", material_edit));
   add(list_edit(a.lights, b.lights, "Light", "lights", [](const LightDesc& x, const LightDesc& y) {
     return joined(changed_keys(light_fields(), x, y));
   }));

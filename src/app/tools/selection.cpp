@@ -30,8 +30,8 @@ std::string selection_name(const SceneDesc& scene, const Selection& selection) {
 std::vector<std::size_t> shining_materials(const SceneDesc& scene, const SceneDesc& home) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const bool shone = i < home.materials.size() && !is_black(home.materials[i].emission);
-    if (shone || !is_black(scene.materials[i].emission)) found.push_back(i);
+    const bool shone = i < home.materials.size() && !is_black(home.materials[i].emission.value);
+    if (shone || !is_black(scene.materials[i].emission.value)) found.push_back(i);
   }
   return found;
 }

@@ -2,7 +2,7 @@
 
 #include "io/files/text_file.h"
 #include "io/images/panorama_reader.h"
-#include "io/images/texture_reader.h"
+#include "io/images/texels_reader.h"
 
 #include <fmt/format.h>
 
@@ -58,13 +58,31 @@ int SceneBuilder::texture_or_none(const FoundFile& file, const Location& where) 
   }
 }
 
-int SceneBuilder::append_texture(const FoundFile& file) {
+std::shared_ptr<const Texels> SceneBuilder::texels_of(const std::string& path) {
+  auto texels = read_texels(path, warnings_);
+  for (const auto& texture : scene_.textures) // another file may show the same
+    if (const auto* image = texture->image(); image != nullptr && *image->texels == *texels)
+      return image->texels;
+  return texels;
+}
+
+int SceneBuilder::append_texture(const FoundFile& file, const std::string& name) {
   auto known = textures_.find(file.canonical);
-  auto texture = known == textures_.end() ? read_texture(file.canonical, warnings_)
-                                          : scene_.textures[static_cast<std::size_t>(known->second)];
+  auto texture =
+      known == textures_.end() ? nullptr : scene_.textures[static_cast<std::size_t>(known->second)];
+  const std::string own_name =
+      name.empty() ? std::filesystem::path(file.canonical).filename().string() : name;
+  if (!texture || texture->name != own_name)
+    texture = std::make_shared<const Texture>(
+        Texture{own_name, ImageTexture{file.canonical,
+                                       texture ? texture->image()->texels : texels_of(file.canonical)}});
+  return append_texture(std::move(texture), &file);
+}
+
+int SceneBuilder::append_texture(std::shared_ptr<const Texture> texture, const FoundFile* file) {
   auto index = static_cast<int>(scene_.textures.size());
   scene_.textures.push_back(std::move(texture));
-  textures_.try_emplace(file.canonical, index);
+  if (file != nullptr) textures_.try_emplace(file->canonical, index);
   return index;
 }
 
@@ -91,8 +109,13 @@ int SceneBuilder::add_material(Material material) {
 int add_mtl_material(SceneBuilder& builder, const MtlMaterial& source, const std::string& name) {
   Material material = source.material;
   material.name = name;
-  if (source.diffuse_texture)
-    material.diffuse_texture = builder.texture_or_none(*source.diffuse_texture, source.texture_where);
+  for (const MtlTexture& map : source.textures) {
+    const int texture = builder.texture_or_none(map.file, map.where);
+    const ParameterRef parameter = find_parameter(material, map.key);
+    if (texture < 0 || !parameter) continue;
+    parameter.use() = map.use;
+    parameter.use().texture = texture;
+  }
   return builder.add_material(std::move(material));
 }
 
@@ -149,7 +172,7 @@ Bounds3 scene_bounds(const SceneDesc& scene) { return instance_bounds(scene.inst
 
 bool has_light(const SceneDesc& scene) {
   auto shines = [&](int material) {
-    return !is_black(scene.materials[static_cast<std::size_t>(material)].emission);
+    return !is_black(scene.materials[static_cast<std::size_t>(material)].emission.value);
   };
   return std::ranges::any_of(scene.lights,
                              [](const LightDesc& l) { return l.scale > 0 && !is_black(l.color); }) ||

@@ -41,8 +41,11 @@ public:
   int texture(const FoundFile& file);
   /// The same for one that an exporter named at `where`: -1, with a warning, if it cannot be read.
   int texture_or_none(const FoundFile& file, const Location& where);
-  /// Of a picture at a new index in any case.
-  int append_texture(const FoundFile& file);
+  /// Of a picture at a new index in any case, under a name; "" for the file's own. What shows the same as a
+  /// texture that is there shares its texels.
+  int append_texture(const FoundFile& file, const std::string& name = "");
+  /// Of one that was not read here; `file`, which may be null, is where it comes from.
+  int append_texture(std::shared_ptr<const Texture> texture, const FoundFile* file = nullptr);
 
   /// The panorama of a file, or of six; the same files are one.
   std::shared_ptr<const Panorama> panorama(const std::vector<FoundFile>& files);
@@ -62,6 +65,7 @@ public:
   int missing_material(const MeshFile& file, std::size_t slot, const Location& where);
 
 private:
+  std::shared_ptr<const Texels> texels_of(const std::string& path);
   std::string unused_material_name(const std::string& wish) const;
 
   SceneDesc& scene_;

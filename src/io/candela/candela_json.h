@@ -8,7 +8,7 @@
 //                "aperture_radius": 0, "focus_distance": 0},
 //     "materials": [
 //       {"name": "red", "type": "diffuse", "diffuse": [0.63, 0.065, 0.05]},
-//       {"name": "wood", "diffuse": 1, "diffuse_texture": "wood.png"},
+//       {"name": "wood", "diffuse": {"texture": "wood.png", "uv_scale": [2, 2]}},
 //       {"name": "lamp", "diffuse": 0, "emission": [17, 12, 4]}
 //     ],
 //     "lights": [{"name": "sky", "type": "constant", "color": [0.5, 0.6, 1], "scale": 2}],
@@ -27,16 +27,22 @@
 //   }
 //
 // camera, settings: the rows of settings_table(), nested at the dots of their keys. materials, lights: the
-// rows of material_fields() and light_fields(). Angles are degrees; a colour may be one number, a grey. All
-// but "candela" may be left out and has its default then.
+// rows of material_fields() of the type and of light_fields(). Angles are degrees; a colour may be one
+// number, a grey. All but "candela" may be left out and has its default then.
 //
 // An environment light has a panorama: "file", or "files" (six faces of a cube: +x, -x, +y, -y, +z, -z), or
 // inline "image": {"name", "width", "height", "pixels": [3 width height numbers]}; without one it is the same
 // from everywhere. For its "mapping" see render/lights/environment_map.h.
 //
-// Files are named relative to the scene's folder. A material's "diffuse_texture" is a picture file, or the
-// index of an entry of "textures": a list of {"file": …} or {"name", "width", "height", "srgb": [bytes]}. It
-// is looked up at "diffuse_uv_scale" * uv + "diffuse_uv_offset", two numbers each.
+// Files are named relative to the scene's folder. A number or colour of a material may be a texture, of which
+// it is factor * texel + offset: {"texture": …, "factor": 1, "offset": 0, "channel", "filter", "wrap",
+// "color_space", "uv_scale": [1, 1], "uv_rotation": 0, "uv_offset": [0, 0]}. The texture is a picture file,
+// or the name or index of an entry of "textures": a list of {"file", "name"}, pictures inline ({"name",
+// "width", "height", "channels": 1, 3 or 4, and "srgb": [bytes], "uint16": […] or "float": […]}), or other
+// kinds by their "type" ({"type": "checker", "name", "even", "odd", "squares"}). A picture keeps the bits
+// that its file has; 8 and 16 bits are decoded as the use's color_space says. Older files say
+// "diffuse_texture" (a file or an index), "diffuse_uv_scale" and "diffuse_uv_offset" beside "diffuse", the
+// factor.
 //
 // A mesh is a file, or inline: "positions", "triangles" (indices from 0), and perhaps "normals" (unit, or
 // zero: flat), "uvs" (both per vertex), "material_slots" (per triangle, into "slots"), "slots" (names, one

@@ -2,6 +2,7 @@
 #include "io/candela/json_camera.h"
 #include "io/candela/json_fields.h"
 #include "io/candela/json_light.h"
+#include "io/candela/json_material.h"
 #include "io/candela/json_mesh.h"
 #include "io/candela/json_texture.h"
 #include "io/candela/json_transform.h"
@@ -73,7 +74,7 @@ private:
     };
     if (value.type() == JsonType::object) {
       for (auto [key, part] : value.members()) {
-        if (key.string() == "file" || key.string() == "diffuse_texture")
+        if (key.string() == "file" || key.string() == "texture" || key.string() == "diffuse_texture")
           expect_named(part);
         else if (key.string() == "files" && part.type() == JsonType::array)
           for (JsonValue name : part) expect_named(name);
@@ -142,37 +143,25 @@ private:
   void textures(JsonValue array) {
     each_object(array, "textures", [&](JsonValue object, const std::string& element) {
       JsonTexture texture = read_json_texture(object, element, builder_.warnings());
+      int index = -1;
       if (texture.file) {
         std::string name = element + ".file";
-        builder_.append_texture(builder_.policy().require(read_string(*texture.file, name), folder_,
-                                                          texture.file->where(), name));
+        index = builder_.append_texture(
+            builder_.policy().require(read_string(*texture.file, name), folder_, texture.file->where(), name),
+            texture.name);
       } else {
-        document_.scene.textures.push_back(std::move(texture.inline_picture));
+        index = builder_.append_texture(std::move(texture.texture));
       }
+      if (!texture.name.empty()) texture_by_name_.try_emplace(texture.name, index);
     });
   }
 
   void materials(JsonValue array) {
-    auto known =
-        keys_of(material_fields(), {"name", "diffuse_texture", "diffuse_uv_scale", "diffuse_uv_offset"});
+    const JsonTextureNames textures = {
+        [&](JsonValue value, const std::string& element) { return texture_file_or_index(value, element); },
+        [&](JsonValue value, const std::string& element) { return texture_of(value, element); }};
     each_object(array, "materials", [&](JsonValue object, const std::string& element) {
-      Material material;
-      for (auto [key, value] : object.members()) // first of all, for the others' defaults depend on it
-        if (key.string() == "type") read_row(material_fields(), material, key, value, element);
-      material = default_material(material.type);
-      for (auto [key, value] : object.members()) {
-        std::string name = fmt::format("{}.{}", element, key.string());
-        if (key.string() == "name")
-          material.name = read_string(value, name);
-        else if (key.string() == "diffuse_texture")
-          material.diffuse_texture = texture_of(value, name);
-        else if (key.string() == "diffuse_uv_scale")
-          material.diffuse_uv.scale = read_vec2(value, name);
-        else if (key.string() == "diffuse_uv_offset")
-          material.diffuse_uv.offset = read_vec2(value, name);
-        else if (!read_row(material_fields(), material, key, value, element))
-          throw unknown_key(key, element, known);
-      }
+      const Material material = read_json_material(object, element, textures);
       int index = builder_.add_material(material);
       auto [same_name, is_new] = material_by_name_.try_emplace(material.name, index);
       if (!is_new) same_name->second = kAmbiguous;
@@ -180,11 +169,17 @@ private:
     });
   }
 
-  int texture_of(JsonValue value, const std::string& element) {
+  int texture_file_or_index(JsonValue value, const std::string& element) {
     if (value.type() == JsonType::number)
       return read_integer(value, element, 0, static_cast<int>(document_.scene.textures.size()) - 1);
     return builder_.texture(
         builder_.policy().require(read_string(value, element), folder_, value.where(), element));
+  }
+  int texture_of(JsonValue value, const std::string& element) {
+    if (value.type() == JsonType::string)
+      if (auto named = texture_by_name_.find(value.string()); named != texture_by_name_.end())
+        return named->second;
+    return texture_file_or_index(value, element);
   }
 
   void lights(JsonValue array) {
@@ -383,6 +378,7 @@ private:
   JsonTree tree_;
   Document document_;
   SceneBuilder builder_;
+  std::map<std::string, int> texture_by_name_; ///< of entries of "textures" that have one
   std::map<std::string, int> material_by_name_;
   int material_count_ = 0; ///< of the file's own, without imported ones
   std::map<std::string, NamedMesh> meshes_;

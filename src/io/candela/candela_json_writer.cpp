@@ -2,6 +2,7 @@
 #include "io/candela/json_camera.h"
 #include "io/candela/json_fields.h"
 #include "io/candela/json_light.h"
+#include "io/candela/json_material.h"
 #include "io/candela/json_mesh.h"
 #include "io/candela/json_texture.h"
 #include "io/files/atomic_file.h"
@@ -98,48 +99,50 @@ private:
     std::set<std::string> sources;
     int next = 0;
     for (const auto& texture : scene_.textures)
-      if (texture->source.empty() || !sources.insert(texture->source).second) return false;
-    for (const Material& material : scene_.materials) {
-      if (material.diffuse_texture > next) return false;
-      if (material.diffuse_texture == next) ++next;
-    }
-    return next == static_cast<int>(scene_.textures.size());
+      if (!is_named_by_file(*texture) || !sources.insert(texture->image()->source).second) return false;
+    bool natural = true;
+    for (const Material& material : scene_.materials)
+      each_parameter(material, [&](const MaterialField&, const ParameterRef& parameter) {
+        const int texture = parameter.use().texture;
+        natural &= texture <= next;
+        if (texture == next) ++next;
+      });
+    return natural && next == static_cast<int>(scene_.textures.size());
+  }
+
+  static bool has_file(const Texture& texture) {
+    return texture.image() != nullptr && !texture.image()->source.empty();
+  }
+  static bool is_named_by_file(const Texture& texture) {
+    return has_file(texture) && texture.name == fs::path(texture.image()->source).filename().string();
   }
 
   std::vector<std::string> textures() const {
     std::vector<std::string> out;
-    for (const auto& texture : scene_.textures)
-      out.push_back(texture->source.empty()
-                        ? json_texture(*texture)
-                        : fmt::format("{{\"file\": {}}}", json_quoted(picture_path(texture->source))));
+    for (const auto& texture : scene_.textures) {
+      if (!has_file(*texture)) {
+        out.push_back(json_texture(*texture));
+        continue;
+      }
+      std::string members = fmt::format("\"file\": {}", json_quoted(picture_path(texture->image()->source)));
+      if (!is_named_by_file(*texture)) members += fmt::format(", \"name\": {}", json_quoted(texture->name));
+      out.push_back(fmt::format("{{{}}}", members));
+    }
     return out;
   }
 
   std::vector<std::string> materials() const {
     std::vector<std::string> out;
-    for (const Material& material : scene_.materials) {
-      std::vector<std::string> members;
-      if (!material.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(material.name)));
-      Material defaults = default_material(material.type);
-      defaults.type = {}; // which is written, too
-      for (std::string& row : changed_rows(material_fields(), material, "", defaults))
-        members.push_back(std::move(row));
-      if (material.diffuse_texture >= 0)
-        members.push_back(
-            fmt::format("\"diffuse_texture\": {}", texture_reference(material.diffuse_texture)));
-      auto pair = [&](std::string_view key, vec2 v, vec2 standard) {
-        if (v != standard) members.push_back(fmt::format("\"{}\": [{}, {}]", key, v.x, v.y));
-      };
-      pair("diffuse_uv_scale", material.diffuse_uv.scale, UvTransform{}.scale);
-      pair("diffuse_uv_offset", material.diffuse_uv.offset, UvTransform{}.offset);
-      out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
-    }
+    for (const Material& material : scene_.materials)
+      out.push_back(fmt::format(
+          "{{{}}}",
+          joined(json_material_members(material, [&](int i) { return texture_reference(i); }), ", ")));
     return out;
   }
 
   std::string texture_reference(int index) const {
     if (!natural_textures_) return fmt::format("{}", index);
-    return json_quoted(picture_path(scene_.textures[static_cast<std::size_t>(index)]->source));
+    return json_quoted(picture_path(scene_.textures[static_cast<std::size_t>(index)]->image()->source));
   }
 
   std::vector<std::string> lights() const {

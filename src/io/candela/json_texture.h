@@ -1,9 +1,9 @@
 #pragma once
 // Entries of "textures" in Candela JSON.
 
-#include "imaging/texture.h"
 #include "io/candela/json_tree.h"
 #include "io/files/warning_list.h"
+#include "scene/textures/texture.h"
 
 #include <memory>
 #include <optional>
@@ -13,15 +13,17 @@
 namespace candela {
 
 struct JsonTexture {
+  std::string name;              ///< "" where none is given
   std::optional<JsonValue> file; ///< the name of a picture file, or else:
-  std::shared_ptr<const Texture> inline_picture;
+  std::shared_ptr<const Texture> texture;
 };
 
-/// Reads {"file": …} or {"name", "width", "height", "srgb": [bytes]}. Throws input_error.
-/// Told to stop, it throws Cancelled.
+/// Reads {"file": …, "name"}; a picture {"name", "width", "height", "channels", and "srgb": [bytes],
+/// "uint16": [16 bits each] or "float": [numbers]}; or {"name", "type", the rows of that kind of texture}.
+/// Throws input_error. Told to stop, it throws Cancelled.
 JsonTexture read_json_texture(JsonValue object, std::string_view element, const WarningList& warnings);
 
-/// The object of a picture that came from no file.
+/// The object of a texture that came from no file.
 std::string json_texture(const Texture& texture);
 
 } // namespace candela

@@ -106,7 +106,7 @@ void add_cs123_light(SceneDesc& scene, SceneBuilder& builder, Cs123Light source)
   }
   Material material;
   material.name = light.name;
-  material.diffuse = vec3(0);
+  material.model = DiffuseMaterial{vec3(0)};
   material.emission = light.color;
   Instance instance;
   instance.name = light.name;

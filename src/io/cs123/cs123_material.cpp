@@ -58,6 +58,7 @@ std::optional<MtlMaterial> cs123_material(pugi::xml_node object, const Cs123Valu
   MtlMaterial out;
   Material& m = out.material;
   vec3 diffuse(0), specular(0), reflective(0), transparent(0);
+  float exponent = PhongMaterial().exponent.value, ior = DielectricMaterial().ior.value;
   bool given = false;
   for (pugi::xml_node child : object.children()) {
     if (child.type() != pugi::node_element) continue;
@@ -74,22 +75,23 @@ std::optional<MtlMaterial> cs123_material(pugi::xml_node object, const Cs123Valu
     else if (name == "emissive")
       m.emission = values.color(child);
     else if (name == "shininess" || name == "shine")
-      m.exponent = glm::clamp(values.number(child, {"v", "value"}), 0.0f, 1e6f);
+      exponent = glm::clamp(values.number(child, {"v", "value"}), 0.0f, 1e6f);
     else if (name == "ior")
-      m.ior = glm::clamp(values.number(child, {"v", "value"}), 0.1f, 10.0f);
+      ior = glm::clamp(values.number(child, {"v", "value"}), 0.1f, 10.0f);
     else if (name == "texture") {
       auto file = child.attribute("file") ? child.attribute("file") : child.attribute("filename");
-      out.texture_where = file ? values.places().attribute(file, child) : values.places().element(child);
+      const Location where = file ? values.places().attribute(file, child) : values.places().element(child);
       if (std::string_view(file.value()).empty())
-        throw input_error(out.texture_where, "texture", "it names no file", "write <texture file=\"…\"/>");
-      out.diffuse_texture =
-          policy.find_exported(file.value(), folder, out.texture_where, "texture", values.warnings());
-      if (!out.diffuse_texture)
-        values.warnings().add(out.texture_where,
-                              fmt::format("the texture '{}' is missing: no texture",
-                                          utf8_name(std::string_view(file.value()).substr(0, 200))));
+        throw input_error(where, "texture", "it names no file", "write <texture file=\"…\"/>");
       auto repeats = [&](const char* axis) { return values.optional_number(child, {axis}).value_or(1); };
-      m.diffuse_uv.scale = {repeats("u"), repeats("v")};
+      TextureUse use = ColorParameter::standard_use();
+      use.uv.scale = {repeats("u"), repeats("v")};
+      out.textures.clear(); // the last one counts
+      if (auto found = policy.find_exported(file.value(), folder, where, "texture", values.warnings()))
+        out.textures.push_back({"diffuse", std::move(*found), use, where});
+      else
+        values.warnings().add(where, fmt::format("the texture '{}' is missing: no texture",
+                                                 utf8_name(std::string_view(file.value()).substr(0, 200))));
     } else {
       known = false;
       if (name != "ambient") values.ignore(child); // there is no ambient light to reflect
@@ -103,20 +105,28 @@ std::optional<MtlMaterial> cs123_material(pugi::xml_node object, const Cs123Valu
       values.warnings().add(values.places().element(object), "a reflectance above 1 is taken for 1");
     return glm::min(c, vec3(1));
   };
-  m.diffuse = clamped(out.diffuse_texture && is_black(diffuse) ? vec3(1) : diffuse);
+  const vec3 matte = clamped(!out.textures.empty() && is_black(diffuse) ? vec3(1) : diffuse);
+  auto conserved = [&](vec3 gloss) {
+    vec3 kept = matte;
+    if (conserve_energy(kept, gloss))
+      values.warnings().add(values.places().element(object),
+                            "diffuse + specular is above 1: the diffuse part is reduced to 1 - specular");
+    return kept;
+  };
   if (!is_black(transparent)) {
-    m.type = MaterialType::dielectric;
+    m.model = DielectricMaterial{ior};
+    out.textures.clear();
   } else if (!is_black(reflective)) {
-    m.type = MaterialType::mirror, m.specular = clamped(reflective);
+    const vec3 mirrored = clamped(reflective);
+    m.model = MirrorMaterial{mirrored, conserved(mirrored)};
     if (!is_black(specular))
       values.warnings().add(values.places().element(object), "a mirror's highlight is ignored");
   } else if (!is_black(specular)) {
-    m.type = MaterialType::phong, m.specular = clamped(specular);
+    const vec3 gloss = clamped(specular);
+    m.model = PhongMaterial{conserved(gloss), gloss, exponent};
+  } else {
+    m.model = DiffuseMaterial{matte};
   }
-  if (material_uses(m.type, "diffuse") && conserve_energy(m.diffuse, m.specular))
-    values.warnings().add(values.places().element(object),
-                          "diffuse + specular is above 1: the diffuse part is reduced to 1 - specular");
-  if (!material_uses(m.type, "diffuse")) out.diffuse_texture.reset();
   return out;
 }
 

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "imaging/image.h"
+#include "imaging/texels.h"
 #include "io/files/file_bytes.h"
 #include "io/files/warning_list.h"
 #include "io/images/image_file.h"
@@ -56,11 +57,12 @@ Image linear_image(const Picture8& picture);
 void make_finite(Image& image, const Location& where, WarningList& warnings);
 
 // stb_codec.cpp: PNG, BMP and (`tga`: it has no signature, so the caller has to
-// know) TGA, whichever way its rows and columns run. Alpha is dropped; PNGs of 16 bits keep them in
-// decode_stb.
+// know) TGA, whichever way its rows and columns run. Alpha is dropped but in
+// decode_stb_texels; PNGs of 16 bits keep them in that and in decode_stb.
 bool is_stb_format(ByteView bytes);
 Picture8 decode_stb8(ByteView bytes, const Location& where, bool tga = false);
 Image decode_stb(ByteView bytes, const Location& where, bool tga = false);
+Texels decode_stb_texels(ByteView bytes, const Location& where, bool tga = false);
 /// Throws std::bad_alloc when out of memory.
 Bytes encode_png(int width, int height, ByteView rgb);
 
@@ -88,6 +90,8 @@ Bytes encode_jpg(int width, int height, ByteView rgb, const std::string& path);
 // as P6.
 bool is_pnm(ByteView bytes);
 Image decode_pnm(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
+/// In 8 bits where the file's largest value is at most 255, else in 16.
+Texels decode_pnm_texels(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
 Bytes encode_ppm(int width, int height, ByteView rgb);
 
 // exr.cpp: OpenEXR, flat parts, any compression; written as 32-bit float, ZIP.

@@ -58,48 +58,88 @@ bool is_pnm(ByteView bytes) {
          (bytes[1] == '2' || bytes[1] == '3' || bytes[1] == '5' || bytes[1] == '6');
 }
 
-Image decode_pnm(ByteView bytes, const Location& where, ProgressPart* progress) {
+namespace {
+
+/// The numbers as they stand in the file.
+struct PnmRaster {
+  std::int64_t width = 0, height = 0, maximum = 0;
+  std::size_t channels = 1;
+  std::vector<std::uint16_t> values;
+};
+
+PnmRaster read_raster(ByteView bytes, const Location& where, ProgressPart* progress) {
   PnmHeader header{bytes, where};
+  PnmRaster out;
   bool text = bytes[1] == '2' || bytes[1] == '3';
-  std::size_t channels = bytes[1] == '3' || bytes[1] == '6' ? 3 : 1;
-  std::int64_t width = header.integer("width"), height = header.integer("height");
-  std::int64_t maximum = header.integer("largest value");
+  out.channels = bytes[1] == '3' || bytes[1] == '6' ? 3 : 1;
+  out.width = header.integer("width"), out.height = header.integer("height");
+  out.maximum = header.integer("largest value");
   header.end();
-  if (maximum < 1 || maximum > 65535)
-    throw damaged_image(where, fmt::format("its largest value is {}, not 1 to 65535", maximum));
-  check_image_size(where, width, height);
-  std::size_t w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
-  std::size_t wide = maximum > 255 ? 2 : 1;
+  if (out.maximum < 1 || out.maximum > 65535)
+    throw damaged_image(where, fmt::format("its largest value is {}, not 1 to 65535", out.maximum));
+  check_image_size(where, out.width, out.height);
+  std::size_t w = static_cast<std::size_t>(out.width), h = static_cast<std::size_t>(out.height);
+  std::size_t wide = out.maximum > 255 ? 2 : 1;
   ByteView data = header.rest();
   // A number as text is a digit and a space, the last without the space.
-  std::size_t due = w * h * channels * (text ? 2 : wide) - (text ? 1 : 0);
+  std::size_t due = w * h * out.channels * (text ? 2 : wide) - (text ? 1 : 0);
   if (data.size() < due)
     throw damaged_image(where, fmt::format("it holds {} bytes of pixels where {} are due", data.size(), due));
-
-  std::vector<float> linear(static_cast<std::size_t>(maximum) + 1);
-  for (std::size_t i = 0; i < linear.size(); ++i)
-    linear[i] = linear_from_srgb(static_cast<float>(i) / static_cast<float>(maximum));
   const std::uint8_t* p = data.data();
-  auto next = [&] {
-    std::int64_t value = 0;
-    if (text)
-      value = header.integer("last pixel");
-    else
-      for (std::size_t i = 0; i < wide; ++i) value = value << 8 | *p++;
-    if (value < 0 || value > maximum)
-      throw damaged_image(where, fmt::format("a value of {} is not from 0 to {}", value, maximum));
-    return linear[static_cast<std::size_t>(value)];
-  };
-  Image image{static_cast<int>(width), static_cast<int>(height), std::vector<vec3>(w * h)};
+  out.values.resize(w * h * out.channels);
   for (std::size_t y = 0; y < h; ++y) {
     if (progress) progress->reach(static_cast<double>(y) / static_cast<double>(h));
-    for (vec3& pixel : std::span(image.pixels).subspan(y * w, w)) {
-      pixel.x = next();
-      pixel.y = channels == 3 ? next() : pixel.x;
-      pixel.z = channels == 3 ? next() : pixel.x;
+    for (std::uint16_t& v : std::span(out.values).subspan(y * w * out.channels, w * out.channels)) {
+      std::int64_t value = 0;
+      if (text)
+        value = header.integer("last pixel");
+      else
+        for (std::size_t i = 0; i < wide; ++i) value = value << 8 | *p++;
+      if (value < 0 || value > out.maximum)
+        throw damaged_image(where, fmt::format("a value of {} is not from 0 to {}", value, out.maximum));
+      v = static_cast<std::uint16_t>(value);
     }
   }
+  return out;
+}
+
+/// What stands for 1 where `maximum` does so in the file.
+template <class T>
+std::vector<T> scaled(const PnmRaster& raster) {
+  constexpr std::int64_t kMost = std::numeric_limits<T>::max();
+  std::vector<T> out;
+  out.reserve(raster.values.size());
+  for (std::uint16_t v : raster.values)
+    out.push_back(static_cast<T>((v * kMost + raster.maximum / 2) / raster.maximum));
+  return out;
+}
+
+} // namespace
+
+Image decode_pnm(ByteView bytes, const Location& where, ProgressPart* progress) {
+  const PnmRaster raster = read_raster(bytes, where, progress);
+  std::vector<float> linear(static_cast<std::size_t>(raster.maximum) + 1);
+  for (std::size_t i = 0; i < linear.size(); ++i)
+    linear[i] = linear_from_srgb(static_cast<float>(i) / static_cast<float>(raster.maximum));
+  Image image{static_cast<int>(raster.width), static_cast<int>(raster.height),
+              std::vector<vec3>(raster.values.size() / raster.channels)};
+  const std::uint16_t* p = raster.values.data();
+  for (vec3& pixel : image.pixels) {
+    pixel = raster.channels == 3 ? vec3(linear[p[0]], linear[p[1]], linear[p[2]]) : vec3(linear[p[0]]);
+    p += raster.channels;
+  }
   return image;
+}
+
+Texels decode_pnm_texels(ByteView bytes, const Location& where, ProgressPart* progress) {
+  const PnmRaster raster = read_raster(bytes, where, progress);
+  Texels out{
+      static_cast<int>(raster.width), static_cast<int>(raster.height), static_cast<int>(raster.channels), {}};
+  if (raster.maximum > 255)
+    out.data = scaled<std::uint16_t>(raster);
+  else
+    out.data = scaled<std::uint8_t>(raster);
+  return out;
 }
 
 Bytes encode_ppm(int width, int height, ByteView rgb) {

@@ -27,8 +27,11 @@ namespace candela {
 
 namespace {
 
+struct Free {
+  void operator()(void* p) const { std::free(p); }
+};
 template <class T>
-using StbPixels = std::unique_ptr<T, decltype([](T* p) { std::free(p); })>;
+using StbPixels = std::unique_ptr<T, Free>;
 
 bool is_bmp(ByteView bytes) { return bytes.size() >= 2 && bytes[0] == 'B' && bytes[1] == 'M'; }
 
@@ -53,12 +56,14 @@ void check_bmp(ByteView bytes, const Location& where, std::int64_t pixels) {
 /// A TGA says in its descriptor whether its rows run from the right, which stb_image overlooks.
 bool runs_leftwards(ByteView tga) { return (tga[17] & 0x10) != 0; }
 
-void mirror_rows(Picture8& picture) {
-  const auto w = static_cast<std::size_t>(picture.width), h = static_cast<std::size_t>(picture.height);
-  for (std::size_t y = 0; y < h; ++y)
-    for (std::size_t x = 0; x < w / 2; ++x)
-      std::swap_ranges(&picture.rgb[3 * (y * w + x)], &picture.rgb[3 * (y * w + x)] + 3,
-                       &picture.rgb[3 * (y * w + w - 1 - x)]);
+/// Rows of `width` texels of so many values.
+template <class T>
+void mirror_rows(std::vector<T>& values, std::size_t width, std::size_t channels) {
+  const std::size_t row = width * channels;
+  for (std::size_t begin = 0; begin + row <= values.size(); begin += row)
+    for (std::size_t x = 0; x < width / 2; ++x)
+      std::swap_ranges(&values[begin + channels * x], &values[begin + channels * x] + channels,
+                       &values[begin + channels * (width - 1 - x)]);
 }
 
 Error undecodable(const Location& where) {
@@ -89,34 +94,70 @@ std::pair<int, int> check_stb(ByteView bytes, const Location& where, bool tga) {
 
 bool is_stb_format(ByteView bytes) { return is_png(bytes) || is_bmp(bytes); }
 
-Picture8 decode_stb8(ByteView bytes, const Location& where, bool tga) {
-  auto size = check_stb(bytes, where, tga);
+namespace {
+
+template <class T>
+struct StbPicture {
   int width = 0, height = 0, channels = 0;
-  StbPixels<stbi_uc> data(
-      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 3));
+  std::vector<T> values;
+};
+
+/// `wanted` channels; 0: as many as the file has. T is stbi_uc or stbi_us.
+template <class T>
+StbPicture<T> load_stb(ByteView bytes, const Location& where, bool tga, int wanted) {
+  auto size = check_stb(bytes, where, tga);
+  StbPicture<T> out;
+  const auto length = static_cast<int>(bytes.size());
+  StbPixels<T> data;
+  if constexpr (sizeof(T) == 1)
+    data.reset(stbi_load_from_memory(bytes.data(), length, &out.width, &out.height, &out.channels, wanted));
+  else
+    data.reset(
+        stbi_load_16_from_memory(bytes.data(), length, &out.width, &out.height, &out.channels, wanted));
   if (!data) throw undecodable(where);
-  if (std::pair(width, height) != size) throw damaged_image(where, "its headers disagree about its size");
-  std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
-  Picture8 picture{width, height, Bytes(data.get(), data.get() + count)};
-  if (tga && !is_stb_format(bytes) && runs_leftwards(bytes)) mirror_rows(picture);
-  return picture;
+  if (std::pair(out.width, out.height) != size)
+    throw damaged_image(where, "its headers disagree about its size");
+  if (wanted > 0) out.channels = wanted;
+  const auto channels = static_cast<std::size_t>(out.channels);
+  std::size_t count = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * channels;
+  out.values.assign(data.get(), data.get() + count);
+  if (tga && !is_stb_format(bytes) && runs_leftwards(bytes))
+    mirror_rows(out.values, static_cast<std::size_t>(out.width), channels);
+  return out;
+}
+
+bool has_16_bits(ByteView bytes) {
+  return is_png(bytes) && stbi_is_16_bit_from_memory(bytes.data(), static_cast<int>(bytes.size())) != 0;
+}
+
+template <class T>
+Texels load_stb_texels(ByteView bytes, const Location& where, bool tga) {
+  auto picture = load_stb<T>(bytes, where, tga, 0);
+  // A grey with an alpha becomes a colour with one.
+  if (picture.channels == 2) picture = load_stb<T>(bytes, where, tga, 4);
+  return {picture.width, picture.height, picture.channels, std::move(picture.values)};
+}
+
+} // namespace
+
+Picture8 decode_stb8(ByteView bytes, const Location& where, bool tga) {
+  auto picture = load_stb<stbi_uc>(bytes, where, tga, 3);
+  return {picture.width, picture.height, std::move(picture.values)};
+}
+
+Texels decode_stb_texels(ByteView bytes, const Location& where, bool tga) {
+  return has_16_bits(bytes) ? load_stb_texels<stbi_us>(bytes, where, tga)
+                            : load_stb_texels<stbi_uc>(bytes, where, tga);
 }
 
 Image decode_stb(ByteView bytes, const Location& where, bool tga) {
-  if (!is_png(bytes) || stbi_is_16_bit_from_memory(bytes.data(), static_cast<int>(bytes.size())) == 0)
-    return linear_image(decode_stb8(bytes, where, tga));
-  auto size = check_stb(bytes, where, tga);
-  int width = 0, height = 0, channels = 0;
-  StbPixels<stbi_us> data(
-      stbi_load_16_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 3));
-  if (!data) throw undecodable(where);
-  if (std::pair(width, height) != size) throw damaged_image(where, "its headers disagree about its size");
+  if (!has_16_bits(bytes)) return linear_image(decode_stb8(bytes, where, tga));
+  const auto picture = load_stb<stbi_us>(bytes, where, tga, 3);
   std::vector<float> linear(65536);
   for (std::size_t i = 0; i < linear.size(); ++i)
     linear[i] = linear_from_srgb(static_cast<float>(i) / 65535.0f);
-  Image image{width, height,
-              std::vector<vec3>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
-  const stbi_us* p = data.get();
+  Image image{picture.width, picture.height, std::vector<vec3>(picture.values.size() / 3)};
+  const stbi_us* p = picture.values.data();
   for (vec3& pixel : image.pixels) pixel = {linear[p[0]], linear[p[1]], linear[p[2]]}, p += 3;
   return image;
 }

@@ -27,15 +27,15 @@ public:
     if (key_.empty() || key_.front() == '#') return;
     where_ = {file_, number, static_cast<int>(key_.data() - text.data()) + 1};
     if (key_ == "newmtl") return begin(trimmed(rest));
-    constexpr std::string_view kKnown[] = {"Kd", "Ks", "Ke", "Tf",    "Kt",    "Ns",
-                                           "Ni", "d",  "Tr", "illum", "map_Kd"};
+    constexpr std::string_view kKnown[] = {"Kd", "Ks", "Ke",    "Tf",     "Kt",     "Ns",     "Ni",
+                                           "d",  "Tr", "illum", "map_Kd", "map_Ks", "map_Ke", "map_d"};
     if (std::ranges::find(kKnown, key_) == std::end(kKnown)) {
       // A path tracer has no ambient term, so Ka misses nothing.
       if (key_ != "Ka" && key_ != "map_Ka")
         warnings_.add(where_, fmt::format("'{}' is ignored", shown(key_)));
     } else if (materials.empty()) {
       ignore("it stands before the first newmtl");
-    } else if (key_ == "map_Kd") {
+    } else if (key_.starts_with("map_")) {
       map(rest);
     } else if (key_.front() == 'K' || key_ == "Tf") {
       color(rest);
@@ -143,9 +143,13 @@ private:
   void map(std::string_view rest) {
     const MapStatement statement = read_map_statement(rest);
     for (std::string_view option : statement.ignored)
-      warnings_.add(where_, fmt::format("map_Kd: the option {} is ignored", option));
+      warnings_.add(where_, fmt::format("{}: the option {} is ignored", key_, option));
     if (statement.file.empty()) return ignore("it names no file");
-    materials.back().map_kd = {std::string(statement.file), statement.scale, statement.offset, where_};
+    MtlStatements& m = materials.back();
+    (key_ == "map_Kd"   ? m.map_kd
+     : key_ == "map_Ks" ? m.map_ks
+     : key_ == "map_Ke" ? m.map_ke
+                        : m.map_d) = {std::string(statement.file), statement.scale, statement.offset, where_};
   }
 
   const std::string& file_;

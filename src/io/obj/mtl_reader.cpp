@@ -2,6 +2,7 @@
 
 #include "io/files/text_file.h"
 #include "io/obj/mtl_parser.h"
+#include "scene/materials/material_choice.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +16,13 @@ constexpr std::size_t kMaxMtlBytes = std::size_t{64} << 20;
 /// Of the time that a file takes, that of its lines.
 constexpr double kLinesShare = 0.5;
 
+/// The row of a material of any type.
+FieldInfo material_row(std::string_view key) {
+  for (const FieldInfo& row : common_material_fields())
+    if (row.key == key) return row;
+  return *std::ranges::find(material_choice_fields(), key, &FieldInfo::key);
+}
+
 /// Conversion of one material, with the corrections that it needs.
 class Converter {
 public:
@@ -24,45 +32,57 @@ public:
   Material convert() {
     Material out;
     out.name = utf8_name(said_.name);
-    out.diffuse = diffuse();
-    out.emission = clamped("emission", "Ke", said_.ke.value_or(vec3(0)));
-    out.two_sided_emission = !is_black(out.emission) && dialect_ == MtlDialect::standard;
-    const vec3 specular = clamped("specular", "Ks", said_.ks.value_or(vec3(0)));
+    out.emission = reflected_or_sent("emission", "Ke", said_.ke, said_.map_ke, vec3(0));
+    out.two_sided_emission = !is_black(out.emission.value) && dialect_ == MtlDialect::standard;
+    vec3 diffuse =
+        reflected_or_sent("diffuse", "Kd", said_.kd, said_.map_kd, DiffuseMaterial().diffuse.value);
+    const vec3 ks = reflected_or_sent("specular", "Ks", said_.ks, said_.map_ks, vec3(0));
+    vec3 specular(0);
     const int illum = said_.illum.value_or(2);
     switch (illum) {
     case 3:
     case 5:
     case 8:
-      out.type = MaterialType::mirror;
-      out.specular = specular;
-      if (!said_.kd && !said_.map_kd) out.diffuse = default_material(out.type).diffuse;
+      specular = ks;
+      if (!said_.kd && !said_.map_kd) diffuse = MirrorMaterial().diffuse.value;
+      conserve(diffuse, specular, ks);
+      out.model = MirrorMaterial{specular, diffuse};
       break;
     case 4:
     case 6:
     case 7:
-    case 9: convert_dielectric(out); return out;
+    case 9: out.model = dielectric(out.name); return out;
     default:
-      if (is_black(specular) || (illum < 2 && dialect_ == MtlDialect::standard)) break;
-      out.type = MaterialType::phong;
-      out.specular = specular * highlight(out.diffuse);
-      out.exponent = clamped("exponent", "Ns", vec3(said_.ns.value_or(1))).x;
+      if (is_black(ks) || (illum < 2 && dialect_ == MtlDialect::standard)) {
+        out.model = DiffuseMaterial{diffuse};
+        break;
+      }
+      specular = ks * highlight(diffuse);
+      conserve(diffuse, specular, ks);
+      out.model = PhongMaterial{diffuse, specular, clamped("exponent", "Ns", vec3(said_.ns.value_or(1))).x};
     }
     out.opacity = clamped("opacity", "d", vec3(said_.d.value_or(1))).x;
-    if (conserve_energy(out.diffuse, out.specular))
-      warnings_.add(said_.where, out.specular == specular
-                                     ? "Kd + Ks is above 1: the diffuse part is reduced to 1 - Ks"
-                                     : "Kd leaves no room for the highlight: it is a little reduced");
     if (said_.tf && *said_.tf != vec3(1)) warnings_.add(said_.where, "Tf of an opaque material is ignored");
     return out;
   }
 
 private:
-  vec3 diffuse() {
-    if (!said_.kd) return said_.map_kd ? vec3(1) : Material{}.diffuse;
-    const vec3 kd = clamped("diffuse", "Kd", *said_.kd);
-    if (!said_.map_kd || !is_black(kd)) return kd;
-    warnings_.add(said_.where, "Kd is black beside map_Kd: it is taken for 1");
+  /// The value of a statement that a map may multiply.
+  vec3 reflected_or_sent(std::string_view row, std::string_view key, const std::optional<vec3>& said,
+                         const std::optional<MtlStatements::Map>& map, vec3 standard) {
+    if (!said) return map ? vec3(1) : standard;
+    const vec3 value = clamped(row, key, *said);
+    if (!map || !is_black(value)) return value;
+    warnings_.add(said_.where, fmt::format("{0} is black beside map_{0}: it is taken for 1", key));
     return vec3(1);
+  }
+
+  /// A map may make room for the diffuse part here and there, so that it is reduced where it is looked up.
+  void conserve(vec3& diffuse, vec3 specular, vec3 ks) {
+    if (said_.map_ks || !conserve_energy(diffuse, specular)) return;
+    warnings_.add(said_.where, specular == ks
+                                   ? "Kd + Ks is above 1: the diffuse part is reduced to 1 - Ks"
+                                   : "Kd leaves no room for the highlight: it is a little reduced");
   }
 
   /// What Ks is to be multiplied with.
@@ -70,34 +90,34 @@ private:
     return dialect_ == MtlDialect::cs123 || is_black(kd) ? 1.0f : kPlasticSpecular;
   }
 
-  void convert_dielectric(Material& out) {
-    out.type = MaterialType::dielectric;
-    out.diffuse = Material{}.diffuse;
+  DielectricMaterial dielectric(const std::string& name) {
+    DielectricMaterial out;
     if (said_.ni)
       out.ior = clamped("ior", "Ni", vec3(*said_.ni)).x;
     else
-      warnings_.add(said_.where, fmt::format("glass without Ni: {} is taken", out.ior));
-    if (!said_.tf || *said_.tf == vec3(1)) return; // what exporters write for clear
+      warnings_.add(said_.where, fmt::format("glass without Ni: {} is taken", out.ior.value));
+    if (!said_.tf || *said_.tf == vec3(1)) return out; // what exporters write for clear
     const vec3 tf = *said_.tf;
     if (dialect_ == MtlDialect::cs123)
       out.absorption = clamped("absorption", "Tf", tf);
     else
       out.transmittance = glm::sqrt(clamped("transmittance", "Tf", tf));
     warnings_.add(said_.where,
-                  fmt::format("material '{}': Tf {} {} {} is read as {}", out.name.substr(0, 60), tf.x, tf.y,
+                  fmt::format("material '{}': Tf {} {} {} is read as {}", name.substr(0, 60), tf.x, tf.y,
                               tf.z,
                               dialect_ == MtlDialect::cs123
                                   ? "absorption per unit of length"
                                   : "transmittance of the whole body, the root of it at each surface"));
+    return out;
   }
 
   /// The value within the range of the material's row.
   vec3 clamped(std::string_view row_key, std::string_view key, vec3 value) {
-    auto row = std::ranges::find(material_fields(), row_key, &FieldInfo::key);
-    vec3 inside = glm::clamp(value, static_cast<float>(row->minimum), static_cast<float>(row->maximum));
+    const FieldInfo row = material_row(row_key);
+    vec3 inside = glm::clamp(value, static_cast<float>(row.minimum), static_cast<float>(row.maximum));
     if (inside != value)
       warnings_.add(said_.where,
-                    fmt::format("{} is out of range: clamped to [{}, {}]", key, row->minimum, row->maximum));
+                    fmt::format("{} is out of range: clamped to [{}, {}]", key, row.minimum, row.maximum));
     return inside;
   }
 
@@ -137,16 +157,27 @@ void read_mtl(const FoundFile& file, const PathPolicy& policy, MtlDialect dialec
       warnings.add(said.where, "a material of this name is there already: the first one counts");
       continue;
     }
-    MtlMaterial out{Converter(said, dialect, warnings).convert(), std::nullopt, said.where};
-    if (said.map_kd && material_uses(out.material.type, "diffuse")) {
-      const auto& map = *said.map_kd;
-      out.texture_where = map.where;
-      out.material.diffuse_uv = {map.scale, map.offset};
-      out.diffuse_texture = policy.find_exported(map.file, folder, map.where, "map_Kd", warnings);
-      if (!out.diffuse_texture)
-        warnings.add(map.where, fmt::format("the texture '{}' is missing: no texture",
-                                            utf8_name(map.file.substr(0, 200))));
-    }
+    MtlMaterial out{Converter(said, dialect, warnings).convert(), {}, said.where};
+    const bool is_glass = std::holds_alternative<DielectricMaterial>(out.material.model);
+    auto map = [&](std::string_view key, std::string_view statement,
+                   const std::optional<MtlStatements::Map>& named) {
+      if (!named) return;
+      const ParameterRef parameter = find_parameter(out.material, key);
+      if (!parameter) return;
+      auto found = policy.find_exported(named->file, folder, named->where, statement, warnings);
+      if (!found) {
+        warnings.add(named->where, fmt::format("the texture '{}' is missing: no texture",
+                                               utf8_name(named->file.substr(0, 200))));
+        return;
+      }
+      TextureUse use = parameter.standard_use();
+      use.uv.scale = named->scale, use.uv.offset = named->offset;
+      out.textures.push_back({std::string(key), std::move(*found), use, named->where});
+    };
+    map("diffuse", "map_Kd", said.map_kd);
+    map("specular", "map_Ks", said.map_ks);
+    map("emission", "map_Ke", said.map_ke);
+    if (!is_glass) map("opacity", "map_d", said.map_d);
     library.emplace(said.name, std::move(out));
   }
 }

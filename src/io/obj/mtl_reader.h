@@ -21,11 +21,18 @@ enum class MtlDialect {
          ///< does not light the ceiling)
 };
 
-/// A material whose texture is not loaded yet.
+/// A texture that is not loaded yet.
+struct MtlTexture {
+  std::string key; ///< of the material's parameter
+  FoundFile file;
+  TextureUse use;
+  Location where; ///< where the MTL names it
+};
+
 struct MtlMaterial {
   Material material;
-  std::optional<FoundFile> diffuse_texture;
-  Location texture_where; ///< where the MTL names it
+  std::vector<MtlTexture> textures;
+  Location where;
 };
 
 using MtlLibrary = std::map<std::string, MtlMaterial, std::less<>>;
@@ -43,10 +50,11 @@ inline constexpr float kPlasticSpecular = 0.08f;
 /// the exponent Ns, whose reflectance is kPlasticSpecular * Ks where Kd (or map_Kd) has a colour, and Ks
 /// where it has none (a metal). For cs123 all but mirror and dielectric are phong(Kd, Ks, Ns) where Ks is not
 /// black. d (or 1 - Tr) is the opacity. Where diffuse and specular part exceed 1 together, the diffuse one is
-/// reduced: a surface cannot reflect more than it gets. Ke is emission. map_Kd multiplies Kd, and Kd is 1
-/// where it is missing or black. Values out of range are clamped. All such corrections, how a coloured Tf was
-/// read, textures that are not there and all statements that are ignored are counted warnings. Throws for a
-/// file that cannot be read, and for textures outside the root.
+/// reduced: a surface cannot reflect more than it gets. Ke is emission. map_Kd, map_Ks, map_Ke and map_d
+/// multiply Kd, Ks, Ke and d, each of which is 1 where it is missing beside its map, or black. Values out of
+/// range are clamped. All such corrections, how a coloured Tf was read, textures that are not there and all
+/// statements that are ignored are counted warnings. Throws for a file that cannot be read, and for textures
+/// outside the root.
 void read_mtl(const FoundFile& file, const PathPolicy& policy, MtlDialect dialect, WarningList& warnings,
               MtlLibrary& library);
 

@@ -46,13 +46,13 @@ public:
       SurfaceInteraction surface = scene_.geometry().surface(ray, hit);
       const SurfaceMaterial& material = scene_.material(surface.material);
       vec3 wo = -ray.direction;
-      Bsdf bsdf = material.diffuse_texture != nullptr
-                      ? evaluate_bsdf(material, scene_.geometry().uv(ray, hit))
-                      : material.bsdf;
+      Bsdf bsdf = material.textured != nullptr ? evaluate_bsdf(material, scene_.geometry().uv(ray, hit))
+                                               : material.bsdf;
       Basis frame = Basis::from_normal(surface.shading_normal);
       vec3 wo_local = frame.to_local(wo);
       // Lamps are told from what is around them by a reflectance in [0, 1], however bright they are.
-      vec3 emission = material.emission / (1 + max_component(material.emission));
+      vec3 emission = emission_at(material, [&] { return scene_.geometry().uv(ray, hit); });
+      emission /= 1 + max_component(emission);
       seen.albedo = tint * (bsdf_albedo(bsdf) + emission);
       seen.normal =
           glm::dot(surface.geometric_normal, wo) < 0 ? -surface.shading_normal : surface.shading_normal;

@@ -34,6 +34,16 @@ void DirectLight::select_lights(const RenderScene& scene, const LightSelection& 
   }
 }
 
+/// Of the samples of lights whose radiance a texture gives.
+void DirectLight::look_up_radiance(const RenderScene& scene) {
+  for (const LightQuery& query : std::span(queries_.data(), query_count_)) {
+    const auto light = static_cast<std::uint32_t>(query.light - scene.lights().data());
+    const EmitterTexture* texture = scene.emitter_texture(light);
+    if (texture != nullptr && lights_.pdf[query.lane] > 0)
+      lights_.radiance.set(query.lane, texture->radiance(scene.geometry(), lights_.point[query.lane]));
+  }
+}
+
 /// In all lanes, also where no light was sampled: the output of those is not read.
 [[gnu::noinline]] void DirectLight::set_directions(const VertexLanes& __restrict vertices,
                                                    const LightSampleLanes& __restrict lights,
@@ -125,6 +135,7 @@ void DirectLight::estimate(const RenderScene& scene, const VertexLanes& vertices
     draw_numbers(points, index, settings.light_samples);
     select_lights(scene, selection, vertices, points);
     sample_lights({queries_.data(), query_count_}, lights_);
+    if (scene.has_textured_lights()) look_up_radiance(scene);
     set_directions(vertices, lights_, directions_);
     weight_samples(vertices, points, settings);
     trace_shadow_rays(scene, points, counts, stop);

@@ -63,6 +63,7 @@ private:
                              LightDirectionLanes& directions);
   void weight_samples(const VertexLanes& vertices, const ShadingPoints& points, const PathSettings& settings);
   void set_ray(ShadowRay& shadow) const;
+  void look_up_radiance(const RenderScene& scene);
   void trace_shadow_rays(const RenderScene& scene, ShadingPoints& points, RayCounts& counts, StopPoll& stop);
 
   std::vector<Sampler> branched_;

@@ -35,7 +35,7 @@ Spectrum first_hit_value(const RenderScene& scene, Ray ray, bool met, Hit hit, v
   switch (view) {
   case View::albedo: {
     const SurfaceMaterial& material = scene.material(surface.material);
-    return bsdf_albedo(material.diffuse_texture ? evaluate_bsdf(material, uv()) : material.bsdf);
+    return bsdf_albedo(material.textured ? evaluate_bsdf(material, uv()) : material.bsdf);
   }
   case View::normal: return towards_viewer(surface.shading_normal, surface, ray);
   case View::geometric_normal: return towards_viewer(surface.geometric_normal, surface, ray);

@@ -130,7 +130,9 @@ void PathTracer::add_emission(int depth) {
     Path& path = *arrived_[i];
     const SurfaceInteraction surface = scene_.geometry().surface(path.ray, hits_[i]);
     const bool outside = glm::dot(-path.ray.direction, surface.geometric_normal) > 0;
-    if (outside || material.two_sided_emission) add_emitted(path, surface, material.emission, depth);
+    if (!outside && !material.two_sided_emission) continue;
+    const Spectrum emission = emission_at(material, [&] { return scene_.geometry().uv(path.ray, hits_[i]); });
+    add_emitted(path, surface, emission, depth);
   }
 }
 

@@ -30,7 +30,8 @@ bool detail::intersect_through_media(const RenderScene& scene, Ray& ray, const S
   for (std::uint32_t crossing = 0; met; ++crossing) {
     const SurfaceMaterial& material = scene.material(scene.geometry().material_of(hit));
     advance(hit.t);
-    if (material.opacity >= 1 || sampler.get_1d(Dimension::opacity, crossing) < material.opacity) return true;
+    const float opacity = opacity_at(material, [&] { return scene.geometry().uv(ray, hit); });
+    if (opacity >= 1 || sampler.get_1d(Dimension::opacity, crossing) < opacity) return true;
     if (crossing + 1 == kMaxCrossings) return false;
     SurfaceInteraction s = scene.geometry().surface(ray, hit);
     if (passage != nullptr)
@@ -65,7 +66,7 @@ Spectrum transmittance(const RenderScene& scene, const Ray& towards, const Shado
     auto hit = accel.intersect(ray);
     if (!hit) return through * passes(where, ray, whole_way);
     const SurfaceMaterial& material = scene.material(scene.geometry().material_of(*hit));
-    through *= 1 - material.opacity;
+    through *= 1 - opacity_at(material, [&] { return scene.geometry().uv(ray, *hit); });
     if (is_black(through)) return Spectrum(0);
     SurfaceInteraction s = scene.geometry().surface(ray, *hit);
     if (media != nullptr) {

@@ -56,7 +56,7 @@ void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays
     wo.set(i, -rays[i]->direction);
     material[i] = &scene.material(geometry.material_of(hit));
     if (hit.kind != PrimitiveKind::triangle || hit.instance != kNoInstance ||
-        material[i]->diffuse_texture != nullptr) {
+        material[i]->textured != nullptr) {
       others[other_count++] = i;
       triangles.clear(i);
       continue;
@@ -76,7 +76,7 @@ void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays
     position_error.set(i, s.position_error);
     geometric_normal.set(i, s.geometric_normal);
     normal.set(i, s.shading_normal);
-    if (material[i]->diffuse_texture != nullptr)
+    if (material[i]->textured != nullptr)
       textured[i] = evaluate_bsdf(*material[i], geometry.uv(*rays[i], hits[i]));
   }
   set_frames(wo, *this);

@@ -27,7 +27,7 @@ struct VertexLanes {
   void set_one(const Vertex& vertex, const Bsdf& bsdf);
 
   const Bsdf& bsdf(std::size_t i) const {
-    return material[i]->diffuse_texture != nullptr ? textured[i] : material[i]->bsdf;
+    return material[i]->textured != nullptr ? textured[i] : material[i]->bsdf;
   }
   /// As folds_directions() has it.
   bool folds(std::size_t i) const { return folds_directions(bsdf(i), normal[i], geometric_normal[i]); }

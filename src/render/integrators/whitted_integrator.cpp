@@ -58,11 +58,12 @@ private:
       const SurfaceMaterial& material = *vertex.material;
       bool outside = vertex.side > 0;
       if (material.emissive && (outside || material.two_sided_emission) && shows_depth(settings_, depth))
-        sample_.add(path.throughput * material.emission, depth);
+        sample_.add(path.throughput *
+                        emission_at(material, [&] { return scene_.geometry().uv(path.ray, hit); }),
+                    depth);
       if (depth == last_depth_ || !vertex.scatters()) return;
-      Bsdf bsdf = material.diffuse_texture != nullptr
-                      ? evaluate_bsdf(material, scene_.geometry().uv(path.ray, hit))
-                      : material.bsdf;
+      Bsdf bsdf = material.textured != nullptr ? evaluate_bsdf(material, scene_.geometry().uv(path.ray, hit))
+                                               : material.bsdf;
       if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1) {
         Spectrum light =
             direct_light_.estimate(scene_, vertex, bsdf, sampler_, settings_, counts_, stop_, &path.media);

@@ -1,28 +1,14 @@
 #include "render/world/render_scene.h"
 
 #include "core/error.h"
-#include "render/world/texture_lookup.h"
 
 #include <array>
 #include <map>
+#include <set>
 
 namespace candela {
 
 namespace {
-
-Bsdf make_bsdf(MaterialType type, vec3 diffuse, vec3 specular, float exponent, float roughness, float ior,
-               vec3 transmittance) {
-  switch (type) {
-  case MaterialType::diffuse: return Diffuse{diffuse};
-  // No reflection gives back more than it got: where both lobes ask for more than 1, the diffuse one gives
-  // in.
-  case MaterialType::phong: return Phong{glm::min(diffuse, 1.0f - specular), specular, exponent};
-  case MaterialType::ggx: return Ggx{specular, roughness};
-  case MaterialType::mirror: return Mirror{specular, glm::min(diffuse, 1.0f - specular)};
-  case MaterialType::dielectric: return Dielectric{ior, transmittance};
-  }
-  return Diffuse{diffuse};
-}
 
 /// First `rotation` about +y, then the smallest turn that takes +y to `up`.
 mat3 world_from_panorama(const LightDesc& light) {
@@ -33,13 +19,7 @@ mat3 world_from_panorama(const LightDesc& light) {
   return mat3(glm::rotate(turn, static_cast<double>(light.rotation), y));
 }
 
-MaterialType override_type(BrdfOverride o) { return static_cast<MaterialType>(static_cast<int>(o) - 1); }
-
 } // namespace
-
-Bsdf make_bsdf(const Material& m) {
-  return make_bsdf(m.type, m.diffuse, m.specular, m.exponent, m.roughness, m.ior, m.transmittance);
-}
 
 std::shared_ptr<const RenderScene> RenderScene::build(const Document& document, const RenderScene* previous,
                                                       Progress* progress) {
@@ -66,59 +46,80 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
 
 void SceneMaterials::add_materials(const Document& document) {
   const OverrideSettings& o = document.settings.override_brdf;
-  for (const Material& m : document.scene.materials) {
-    SurfaceMaterial s;
-    if (o.brdf != BrdfOverride::none) {
-      // A mirror reflects, and nothing else.
-      const vec3 diffuse = o.brdf == BrdfOverride::mirror ? vec3(0) : o.diffuse;
-      s.bsdf = make_bsdf(override_type(o.brdf), diffuse, o.specular, o.exponent, o.roughness, o.ior, vec3(1));
+  const Material overriding = o.is_on() ? overriding_material(o) : Material();
+  std::vector<const Material*> scattering; // what each surface scatters by
+  for (const Material& own : document.scene.materials) {
+    if (o.is_on()) {
+      Material m = own;
+      m.model = overriding.model;
+      materials_.add(m, textures_);
     } else {
-      s.bsdf = make_bsdf(m);
-      if (m.diffuse_texture >= 0)
-        s.diffuse_texture = textures_[static_cast<std::size_t>(m.diffuse_texture)].get();
-      s.diffuse_uv = m.diffuse_uv;
+      materials_.add(own, textures_);
     }
-    s.opacity = m.opacity;
-    s.emission = m.emission;
-    s.emissive = !is_black(m.emission);
-    s.two_sided_emission = m.two_sided_emission;
-    has_transparency_ |= m.opacity < 1;
-    materials_.push_back(s);
+    scattering.push_back(o.is_on() ? &overriding : &own);
+    has_transparency_ |= own.opacity.value < 1 || own.opacity.is_textured();
   }
-  if (o.brdf == BrdfOverride::none) add_media(document.scene.materials);
+  add_media(scattering);
 }
 
-void SceneMaterials::add_media(const std::vector<Material>& materials) {
-  auto is_body = [](const Material& m) { return m.type == MaterialType::dielectric; };
-  if (std::ranges::none_of(materials,
-                           [&](const Material& m) { return is_body(m) && !is_black(m.absorption); }))
-    return;
+void SceneMaterials::add_media(const std::vector<const Material*>& materials) {
+  auto absorbs = [](const Material* m) {
+    const auto absorption = inside_absorption(m->model);
+    return absorption && !is_black(*absorption);
+  };
+  if (std::ranges::none_of(materials, absorbs)) return;
   std::map<std::array<float, 3>, std::uint16_t> known;
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (!is_body(materials[i])) continue;
-    const vec3 a = materials[i].absorption;
+    const std::optional<vec3> a = inside_absorption(materials[i]->model);
+    if (!a) continue;
     const auto [entry, is_new] =
-        known.try_emplace({a.x, a.y, a.z}, static_cast<std::uint16_t>(media_.size()));
-    if (is_new) media_.emplace_back(AbsorbingMedium{a});
+        known.try_emplace({a->x, a->y, a->z}, static_cast<std::uint16_t>(media_.size()));
+    if (is_new) media_.emplace_back(AbsorbingMedium{*a});
     if (media_.size() >= MediumId::kNone)
       throw Error(ExitCode::limit, "materials: there are more than 65534 different absorptions: use fewer");
     materials_[i].media.inside.index = entry->second;
   }
 }
 
+namespace {
+
+/// What light sampling expects of a surface. A path that meets a partly transparent light sees it with the
+/// probability of its opacity; sampling the light must expect the same. Where a texture says more, its mean
+/// over [0, 1]^2: lights are chosen by it. Never black, for then what the mean misses would not be sampled.
+vec3 expected_radiance(const SurfaceMaterial& m) {
+  if (!has_textured_radiance(m)) return m.emission * m.opacity;
+  constexpr int kSide = 16;
+  constexpr float kLeastShare = 1e-3f;
+  vec3 sum(0), brightest(0);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      auto uv = [&] { return (vec2(x, y) + 0.5f) / static_cast<float>(kSide); };
+      const vec3 emission = emission_at(m, uv);
+      sum += emission * opacity_at(m, uv);
+      brightest = glm::max(brightest, emission);
+    }
+  const vec3 mean = sum / static_cast<float>(kSide * kSide);
+  return glm::max(mean, kLeastShare * (is_black(brightest) ? vec3(1) : brightest));
+}
+
+} // namespace
+
+void SceneLights::add_emitter(std::uint64_t emitter, const SurfaceMaterial& material, Light light) {
+  const auto index = static_cast<std::uint32_t>(lights_.size());
+  light_of_emitter_.set(emitter, index);
+  lights_.push_back(light);
+  if (!has_textured_radiance(material)) return;
+  emitter_textures_.resize(index + 1);
+  emitter_textures_[index] = {emitter, &material};
+}
+
 void SceneLights::add_emitters(const Progress* progress) {
-  // A path that meets a partly transparent light by chance sees it with the chance of its opacity; aiming at
-  // it must expect the same.
-  auto aimed = [](const SurfaceMaterial& m) { return m.emission * m.opacity; };
+  auto aimed = [](const SurfaceMaterial& m) { return expected_radiance(m); };
   bool any = false;
   for (const SurfaceMaterial& m : materials_) any |= m.emissive;
   if (!any) return;
   const Geometry& g = *geometry_;
   light_of_emitter_.reset(g.emitter_count());
-  auto add = [&](std::uint64_t emitter, Light light) {
-    light_of_emitter_.set(emitter, static_cast<std::uint32_t>(lights_.size()));
-    lights_.push_back(light);
-  };
   auto add_triangle = [&](std::uint64_t emitter, vec3 p0, vec3 p1, vec3 p2, vec3 outside,
                           const SurfaceMaterial& m) {
     vec3 c = glm::cross(p1 - p0, p2 - p0);
@@ -126,7 +127,8 @@ void SceneLights::add_emitters(const Progress* progress) {
     if (!(double_area > 0)) return; // no ray meets it either
     vec3 n = c / double_area;
     if (glm::dot(n, outside) < 0) n = -n;
-    add(emitter, TriangleLight{p0, p1 - p0, p2 - p0, n, 0.5f * double_area, aimed(m), m.two_sided_emission});
+    add_emitter(emitter, m,
+                TriangleLight{p0, p1 - p0, p2 - p0, n, 0.5f * double_area, aimed(m), m.two_sided_emission});
   };
 
   for (const RectangleGeometry& r : g.rectangles()) {
@@ -135,7 +137,8 @@ void SceneLights::add_emitters(const Progress* progress) {
     float lengths = glm::length(r.edge_x) * glm::length(r.edge_y);
     if (!m.emissive || std::abs(glm::dot(r.edge_x, r.edge_y)) > 1e-6f * lengths) continue;
     if (!(length_squared(glm::cross(r.edge_x, r.edge_y)) > 0)) continue;
-    add(r.first_triangle, RectangleLight(r.corner, r.edge_x, r.edge_y, aimed(m), m.two_sided_emission));
+    add_emitter(r.first_triangle, m,
+                RectangleLight(r.corner, r.edge_x, r.edge_y, aimed(m), m.two_sided_emission));
     light_of_emitter_.set(r.first_triangle + 1, light_of_emitter_[r.first_triangle]);
   }
   const TriangleSet& world = g.world();
@@ -149,12 +152,13 @@ void SceneLights::add_emitters(const Progress* progress) {
   }
   for (std::size_t i = 0; i < g.spheres().size(); ++i)
     if (const SurfaceMaterial& m = materials_[g.sphere_materials()[i]]; m.emissive)
-      add(g.sphere_emitter(i),
-          SphereLight{g.spheres()[i].center, g.spheres()[i].radius, aimed(m), m.two_sided_emission});
+      add_emitter(g.sphere_emitter(i), m,
+                  SphereLight{g.spheres()[i].center, g.spheres()[i].radius, aimed(m), m.two_sided_emission});
   for (std::size_t i = 0; i < g.discs().size(); ++i)
     if (const SurfaceMaterial& m = materials_[g.disc_materials()[i]]; m.emissive)
-      add(g.disc_emitter(i), DiscLight{g.discs()[i].center, g.discs()[i].normal, g.discs()[i].radius,
-                                       aimed(m), m.two_sided_emission});
+      add_emitter(g.disc_emitter(i), m,
+                  DiscLight{g.discs()[i].center, g.discs()[i].normal, g.discs()[i].radius, aimed(m),
+                            m.two_sided_emission});
   for (const Geometry::Placed& p : g.placed()) {
     auto shines = [&](std::uint32_t material) { return materials_[material].emissive; };
     if (std::ranges::none_of(p.slot_materials, shines)) continue;
@@ -221,19 +225,6 @@ void SceneLights::add_lights(const std::vector<LightDesc>& lights, const SceneLi
 
 std::size_t RenderScene::memory_bytes() const {
   return geometry_->memory_bytes() + materials_->memory_bytes() + lights_->memory_bytes();
-}
-
-Bsdf evaluate_bsdf(const SurfaceMaterial& material, vec2 uv) {
-  Bsdf bsdf = material.bsdf;
-  vec3 texel =
-      lookup_bilinear(*material.diffuse_texture, material.diffuse_uv.scale * uv + material.diffuse_uv.offset);
-  if (auto* d = std::get_if<Diffuse>(&bsdf))
-    d->reflectance *= texel;
-  else if (auto* p = std::get_if<Phong>(&bsdf))
-    p->diffuse *= texel;
-  else if (auto* m = std::get_if<Mirror>(&bsdf))
-    m->diffuse *= texel;
-  return bsdf;
 }
 
 } // namespace candela

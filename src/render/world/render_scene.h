@@ -32,6 +32,10 @@ public:
   const std::vector<Light>& lights() const { return lights_->lights(); }
   /// The light that a primitive is (part of), or kNoLight.
   std::uint32_t light_of(std::uint64_t emitter) const { return lights_->light_of(emitter); }
+  /// Whether any of the lights, by index, has a radiance that a texture gives.
+  bool has_textured_lights() const { return lights_->has_textured_lights(); }
+  /// Of that light; null where its radiance is the same everywhere.
+  const EmitterTexture* emitter_texture(std::uint32_t light) const { return lights_->emitter_texture(light); }
   const std::vector<std::uint32_t>& infinite_lights() const { return lights_->infinite_lights(); }
 
   /// Choice of a light as path.light_choice has it: among all, or among those that light sampling alone can
@@ -47,11 +51,5 @@ private:
   std::shared_ptr<const SceneMaterials> materials_;
   std::shared_ptr<const SceneLights> lights_;
 };
-
-/// The material's BSDF, without its texture.
-Bsdf make_bsdf(const Material& material);
-
-/// The BSDF of a material that has a texture, with it looked up at uv.
-Bsdf evaluate_bsdf(const SurfaceMaterial& material, vec2 uv);
 
 } // namespace candela

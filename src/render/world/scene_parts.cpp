@@ -2,14 +2,25 @@
 
 #include "render/world/scene_parts.h"
 
+#include <set>
+
 namespace candela {
 
 namespace {
 
+/// The textures themselves are compared by their addresses: the parts hold them.
+bool is_same(const TexturedParameter* a, const TexturedParameter* b) {
+  if (a == nullptr || b == nullptr) return a == b;
+  return a->texture == b->texture && a->use == b->use && a->factor == b->factor && a->offset == b->offset &&
+         a->lowest == b->lowest && a->highest == b->highest;
+}
+
 /// Whether surfaces of either material are the same lights.
 bool emits_alike(const SurfaceMaterial& a, const SurfaceMaterial& b) {
   if (!a.emissive && !b.emissive) return true;
-  return a.emission == b.emission && a.opacity == b.opacity && a.two_sided_emission == b.two_sided_emission;
+  return a.emissive == b.emissive && a.emission == b.emission && a.opacity == b.opacity &&
+         a.two_sided_emission == b.two_sided_emission && is_same(a.emission_texture, b.emission_texture) &&
+         is_same(a.opacity_texture, b.opacity_texture);
 }
 
 } // namespace
@@ -30,8 +41,14 @@ std::shared_ptr<const SceneMaterials> SceneMaterials::of(const Document& documen
 }
 
 std::size_t SceneMaterials::memory_bytes() const {
-  std::size_t bytes = materials_.size() * sizeof(SurfaceMaterial);
-  for (const auto& texture : textures_) bytes += texture->srgb.size();
+  std::size_t bytes = materials_.memory_bytes();
+  std::set<const void*> counted; // several textures may share their texels
+  for (const auto& texture : textures_) {
+    const ImageTexture* image = texture->image();
+    const void* data = image != nullptr ? static_cast<const void*>(image->texels.get()) : texture.get();
+    if (!counted.insert(data).second) continue;
+    bytes += std::visit([](const auto& kind) { return kind.memory_bytes(); }, texture->model);
+  }
   return bytes;
 }
 

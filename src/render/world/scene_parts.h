@@ -2,40 +2,27 @@
 // The parts of a RenderScene that edits of other parts keep: materials and lights. Each knows what it was
 // made of.
 
-#include "bsdf/bsdf.h"
 #include "media/medium.h"
-#include "media/medium_stack.h"
 #include "render/lights/emitter_lights.h"
 #include "render/lights/light_selection.h"
+#include "render/world/emitter_texture.h"
 #include "render/world/geometry.h"
+#include "render/world/surface_material.h"
 #include "scene/document.h"
 
 namespace candela {
-
-/// A material as shading needs it.
-struct SurfaceMaterial {
-  Bsdf bsdf;
-  const Texture* diffuse_texture = nullptr; ///< multiplies the BSDF's diffuse part; null: none
-  UvTransform diffuse_uv;                   ///< of that texture
-  Spectrum emission{0};                     ///< W/(m^2 sr)
-  float opacity = 1;
-  bool emissive = false;
-  bool two_sided_emission = false;
-  /// By RenderScene::medium(). Bodies that absorb the same have the same medium; where anything absorbs, a
-  /// clear dielectric has one, too, for it may lie inside of that.
-  MediumInterface media;
-};
 
 /// A document's materials.
 class SceneMaterials {
 public:
   explicit SceneMaterials(const Document& document);
+  SceneMaterials(const SceneMaterials&) = delete;
+  SceneMaterials& operator=(const SceneMaterials&) = delete;
   /// Those of `previous` (may be null) where they are of the same materials, textures and override.
   static std::shared_ptr<const SceneMaterials> of(const Document& document,
                                                   std::shared_ptr<const SceneMaterials> previous);
 
   const SurfaceMaterial& operator[](std::size_t i) const { return materials_[i]; }
-  std::size_t size() const { return materials_.size(); }
   auto begin() const { return materials_.begin(); }
   auto end() const { return materials_.end(); }
   bool has_transparency() const { return has_transparency_; }
@@ -44,14 +31,14 @@ public:
 
 private:
   void add_materials(const Document& document);
-  void add_media(const std::vector<Material>& materials);
+  void add_media(const std::vector<const Material*>& materials);
 
   // Made of:
   std::vector<Material> source_;
   std::vector<std::shared_ptr<const Texture>> textures_;
   OverrideSettings override_;
 
-  std::vector<SurfaceMaterial> materials_;
+  SurfaceMaterials materials_;
   bool has_transparency_ = false;
   std::vector<Medium> media_; ///< empty where nothing absorbs
 };
@@ -74,6 +61,12 @@ public:
 
   const std::vector<Light>& lights() const { return lights_; }
   std::uint32_t light_of(std::uint64_t emitter) const { return light_of_emitter_[emitter]; }
+  bool has_textured_lights() const { return !emitter_textures_.empty(); }
+  const EmitterTexture* emitter_texture(std::uint32_t light) const {
+    return emitter_textures_.size() > light && emitter_textures_[light].material != nullptr
+               ? &emitter_textures_[light]
+               : nullptr;
+  }
   const std::vector<std::uint32_t>& infinite_lights() const { return infinite_lights_; }
   const LightSelection& all_lights() const { return all_lights_; }
   const LightSelection& delta_lights() const { return delta_lights_; }
@@ -81,6 +74,7 @@ public:
 
 private:
   void add_emitters(const Progress* progress);
+  void add_emitter(std::uint64_t emitter, const SurfaceMaterial& material, Light light);
   void add_lights(const std::vector<LightDesc>& lights, const SceneLights* previous,
                   const Progress* progress);
   const EnvironmentMap* environment_map(const LightDesc& light, const SceneLights* previous,
@@ -96,6 +90,7 @@ private:
 
   std::vector<Light> lights_;
   EmitterLights light_of_emitter_;
+  std::vector<EmitterTexture> emitter_textures_; ///< by light; empty where none is textured
   std::vector<std::uint32_t> infinite_lights_;
   std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
   LightSelection all_lights_, delta_lights_;

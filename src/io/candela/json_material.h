@@ -1,0 +1,30 @@
+#pragma once
+// Entries of "materials" in Candela JSON.
+
+#include "io/candela/json_tree.h"
+#include "scene/materials/material.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace candela {
+
+/// What the scene makes of the name of a texture.
+struct JsonTextureNames {
+  /// A picture file, or the index of an entry of "textures".
+  std::function<int(JsonValue, const std::string& element)> file_or_index;
+  /// The same, or the name of an entry of "textures".
+  std::function<int(JsonValue, const std::string& element)> any;
+};
+
+/// Reads {"name", "type", the rows of material_fields()}. A parameter is a value, or {"texture": …, "factor",
+/// "offset", the rows of texture_use_fields(), "uv_scale", "uv_offset"}. Values of other types than the
+/// material's must fit their rows, and are forgotten. Throws input_error.
+Material read_json_material(JsonValue object, const std::string& element, const JsonTextureNames& textures);
+
+/// The members of a material that differ from its type's defaults; `reference` writes a texture's index.
+std::vector<std::string> json_material_members(const Material& material,
+                                               const std::function<std::string(int)>& reference);
+
+} // namespace candela

@@ -1,0 +1,89 @@
+#pragma once
+// Materials as shading needs them: constants evaluated once, textures at a hit.
+
+#include "bsdf/bsdf.h"
+#include "core/spectrum.h"
+#include "media/medium_stack.h"
+#include "scene/materials/material.h"
+#include "scene/textures/texture.h"
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+namespace candela {
+
+/// A parameter that is a texture, within the range of its row.
+struct TexturedParameter {
+  const Texture* texture = nullptr;
+  TextureUse use;
+  vec3 factor{1}, offset{0};
+  float lowest = 0, highest = 1;
+
+  vec3 color(vec2 uv) const {
+    return glm::clamp(factor * texture_color(*texture, use, uv) + offset, lowest, highest);
+  }
+  float number(vec2 uv) const {
+    return std::clamp(factor.x * texture_number(*texture, use, uv) + offset.x, lowest, highest);
+  }
+};
+
+/// A model some of whose parameters are textures: their uses name entries of `lookups`.
+struct TexturedModel {
+  MaterialModel model;
+  std::vector<TexturedParameter> lookups;
+};
+
+struct SurfaceMaterial {
+  Bsdf bsdf;                                           ///< where `textured` is null
+  const TexturedModel* textured = nullptr;             ///< evaluate_bsdf() knows the BSDF then
+  const TexturedParameter* emission_texture = nullptr; ///< emission_at() knows it then
+  const TexturedParameter* opacity_texture = nullptr;  ///< opacity_at(), likewise
+  Spectrum emission{0};                                ///< W/(m^2 sr)
+  float opacity = 1;
+  bool emissive = false;
+  bool two_sided_emission = false;
+  /// By RenderScene::medium(). Bodies that absorb the same have the same medium; where anything absorbs, a
+  /// clear dielectric has one, too, for it may lie inside of that.
+  MediumInterface media;
+};
+
+/// The closure of a material's constants; textured parameters are taken for their factors.
+Bsdf make_bsdf(const Material& material);
+
+/// The BSDF of a material whose `textured` is not null, at uv.
+Bsdf evaluate_bsdf(const SurfaceMaterial& material, vec2 uv);
+
+// `uv()` is asked only where something is textured.
+
+template <class Uv>
+vec3 emission_at(const SurfaceMaterial& material, Uv uv) {
+  return material.emission_texture == nullptr ? material.emission : material.emission_texture->color(uv());
+}
+template <class Uv>
+float opacity_at(const SurfaceMaterial& material, Uv uv) {
+  return material.opacity_texture == nullptr ? material.opacity : material.opacity_texture->number(uv());
+}
+
+/// The materials of a scene, and the textures that they look at.
+class SurfaceMaterials {
+public:
+  void add(const Material& material, const std::vector<std::shared_ptr<const Texture>>& textures);
+
+  const SurfaceMaterial& operator[](std::size_t i) const { return materials_[i]; }
+  SurfaceMaterial& operator[](std::size_t i) { return materials_[i]; }
+  auto begin() const { return materials_.begin(); }
+  auto end() const { return materials_.end(); }
+  std::size_t memory_bytes() const;
+
+private:
+  const TexturedParameter* keep(const TexturedParameter& parameter) {
+    return &parameters_.emplace_back(parameter);
+  }
+
+  std::vector<SurfaceMaterial> materials_;
+  std::deque<TexturedModel> models_;         ///< what materials_ point to
+  std::deque<TexturedParameter> parameters_; ///< likewise
+};
+
+} // namespace candela

@@ -1,0 +1,63 @@
+#pragma once
+// How a parameter of a material looks at a texture.
+
+#include "core/color.h"
+#include "core/fields.h"
+
+#include <span>
+
+namespace candela {
+
+/// What a parameter takes of a texel. A number takes the luminance of `rgb`, a colour a grey of one channel.
+enum class TextureChannel : int { rgb, red, green, blue, alpha };
+enum class TextureFilter : int { nearest, bilinear };
+/// What lies outside of [0, 1]^2: the texture again, its border, or its mirror images.
+enum class TextureWrap : int { repeat, clamp, mirror };
+/// What the integers of a picture mean; floats, alpha and procedural textures are linear in any case.
+enum class ColorSpace : int { srgb, linear };
+
+/// Where a texture is looked up: at scale * uv, turned about (0, 0) by `rotation`, + offset.
+struct UvTransform {
+  vec2 scale{1}, offset{0};
+  float rotation = 0; ///< radians, counter-clockwise
+  bool operator==(const UvTransform&) const = default;
+
+  vec2 apply(vec2 uv) const {
+    vec2 p = scale * uv;
+    if (rotation != 0) {
+      const float c = std::cos(rotation), s = std::sin(rotation);
+      p = {c * p.x - s * p.y, s * p.x + c * p.y};
+    }
+    return p + offset;
+  }
+};
+
+struct TextureUse {
+  int texture = -1; ///< index into SceneDesc::textures; -1: none
+  TextureChannel channel = TextureChannel::rgb;
+  TextureFilter filter = TextureFilter::bilinear;
+  TextureWrap wrap = TextureWrap::repeat;
+  ColorSpace color_space = ColorSpace::srgb;
+  UvTransform uv;
+  bool operator==(const TextureUse&) const = default;
+};
+
+/// Rows of the choices and the rotation; the texture, scale and offset are not in them.
+std::span<const Field<TextureUse>> texture_use_fields();
+
+/// The channel of a texel that is known as red, green, blue, alpha.
+inline float texel_number(vec4 texel, TextureChannel channel) {
+  switch (channel) {
+  case TextureChannel::rgb: break;
+  case TextureChannel::red: return texel.x;
+  case TextureChannel::green: return texel.y;
+  case TextureChannel::blue: return texel.z;
+  case TextureChannel::alpha: return texel.w;
+  }
+  return luminance(vec3(texel));
+}
+inline vec3 texel_color(vec4 texel, TextureChannel channel) {
+  return channel == TextureChannel::rgb ? vec3(texel) : vec3(texel_number(texel, channel));
+}
+
+} // namespace candela
