@@ -1,5 +1,6 @@
 // What is only read: statistics and the status line; and the column that holds the panels.
 
+#include "app/panels/panel_list.h"
 #include "app/panels/panels.h"
 
 #include <fmt/format.h>
@@ -107,17 +108,7 @@ void panel_column(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
   const ImGuiWindowFlags flags = (kPlainWindow & ~ImGuiWindowFlags_NoScrollbar) |
                                  ImGuiWindowFlags_AlwaysVerticalScrollbar; // nothing moves when a fold opens
   if (ImGui::Begin("##panels", nullptr, flags)) {
-    statistics_panel(ui, state);
-    compare_panel(ui, state);
-    display_panel(ui, state);
-    inspect_panel(ui, state);
-    camera_panel(ui, state);
-    bookmarks_panel(ui, state);
-    render_panel(ui, state);
-    objects_panel(ui, state);
-    materials_panel(ui, state);
-    lights_panel(ui, state);
-    scenes_panel(ui, state);
+    for (DrawPanel draw : kPanels) draw(ui, state);
     if (ui.button("lab.open", "Monte Carlo lab",
                   "Lessons on samplers, densities and materials, over the picture (F2)"))
       state.lab_visible = !state.lab_visible;
