@@ -13,6 +13,7 @@
 #include "app/console/number_option.h"
 #include "app/platform/streams.h"
 #include "core/error.h"
+#include "io/scene_formats.h"
 #include "scene/document.h"
 
 #include <CLI/CLI.hpp>
@@ -46,7 +47,7 @@ void add_setting(CLI::App& command, const std::string& name, T& target, std::str
 
 /// The settings that have an option of their own are applied like `--set`, in the order given.
 void add_common_options(CLI::App& command, SceneOptions& o) {
-  command.add_option("scene", o.path, "Scene file (.json .obj .xml .ini)");
+  command.add_option("scene", o.path, fmt::format("Scene file ({} {})", scene_endings(" "), kJobEnding));
   command.add_option("--set", o.settings, "Change a setting, KEY=VALUE; see `candela settings`")
       ->take_all()
       ->allow_extra_args(false);

@@ -1,31 +1,11 @@
 #pragma once
-// The panels: each draws itself with Ui into the current ImGui window and edits the state's Document.
+// What is drawn over and beside the picture: the column of panels, bars, strips and overlays.
 
 #include "app/compare/compare_layout.h"
 #include "app/panels/viewer_state.h"
 #include "app/ui/widgets.h"
 
 namespace candela {
-
-void statistics_panel(Ui& ui, ViewerState& state);
-void display_panel(Ui& ui, ViewerState& state);
-/// Every row of the settings table that is not the camera's or the display's, by group.
-void render_panel(Ui& ui, ViewerState& state);
-void camera_panel(Ui& ui, ViewerState& state);
-/// What is placed in the scene: the list, and the selected object's transform and materials.
-void objects_panel(Ui& ui, ViewerState& state);
-void materials_panel(Ui& ui, ViewerState& state);
-void lights_panel(Ui& ui, ViewerState& state);
-void inspect_panel(Ui& ui, ViewerState& state);
-void bookmarks_panel(Ui& ui, ViewerState& state);
-void scenes_panel(Ui& ui, ViewerState& state);
-void compare_panel(Ui& ui, ViewerState& state);
-
-/// The column's panels, from the top. A new one is a file, and its declaration and entry here.
-using Panel = void (*)(Ui& ui, ViewerState& state);
-inline constexpr Panel kPanels[] = {statistics_panel, compare_panel,   display_panel, inspect_panel,
-                                    camera_panel,     bookmarks_panel, render_panel,  objects_panel,
-                                    materials_panel,  lights_panel,    scenes_panel};
 
 /// What is written over the pictures of a comparison: what they are, the divider, the legend of a difference.
 void compare_overlay(Ui& ui, const CompareState& compare, const ComparePanes& panes,

@@ -1,5 +1,5 @@
 #include "app/panels/bookmarks.h"
-#include "app/panels/panels.h"
+#include "app/panels/panel_list.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

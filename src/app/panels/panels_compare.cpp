@@ -1,6 +1,7 @@
 // The panel of a comparison, and what is written over its pictures.
 
 #include "app/compare/compare_layout.h"
+#include "app/panels/panel_list.h"
 #include "app/panels/panels.h"
 #include "app/ui/plot_widget.h"
 #include "imaging/difference.h"

@@ -1,6 +1,6 @@
 // The section that looks into the picture: its histogram in stops, and the switch of the probe.
 
-#include "app/panels/panels.h"
+#include "app/panels/panel_list.h"
 #include "app/ui/typed_number.h"
 #include "imaging/exposure.h"
 

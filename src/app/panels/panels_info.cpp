@@ -1,5 +1,6 @@
 // What is only read: statistics and the status line; and the column that holds the panels.
 
+#include "app/panels/panel_list.h"
 #include "app/panels/panels.h"
 
 #include <fmt/format.h>
@@ -84,9 +85,9 @@ void statistics_panel(Ui& ui, ViewerState& state) {
              "From the last edit that restarted to its first image");
   const MeterReadings& meter = state.meter;
   auto ms = [](double value) { return value > 0 ? fmt::format("{:.1f} ms", value) : std::string("…"); };
-  ui.readout("input latency", ms(meter.first_ms),
+  ui.readout("hand to picture", ms(meter.first_ms),
              "From an input to its first picture on the screen; the median of the last 32");
-  ui.readout("latency, full picture", ms(meter.full_ms), "The same to one sample in every pixel");
+  ui.readout("hand to full picture", ms(meter.full_ms), "The same to one sample in every pixel");
   ui.readout(
       "frame", fmt::format("{}, 99 %: {}", ms(meter.frame_ms), ms(meter.frame_p99_ms)),
       "Of the window, until it is on the screen: the median of the last 256, and what 99 % of them keep to");
@@ -107,7 +108,7 @@ void panel_column(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
   const ImGuiWindowFlags flags = (kPlainWindow & ~ImGuiWindowFlags_NoScrollbar) |
                                  ImGuiWindowFlags_AlwaysVerticalScrollbar; // nothing moves when a fold opens
   if (ImGui::Begin("##panels", nullptr, flags)) {
-    for (const Panel panel : kPanels) panel(ui, state);
+    for (DrawPanel draw : kPanels) draw(ui, state);
     if (ui.button("lab.open", "Monte Carlo lab",
                   "Lessons on samplers, densities and materials, over the picture (F2)"))
       state.lab_visible = !state.lab_visible;

@@ -1,6 +1,6 @@
 // The panel of what is placed in the scene.
 
-#include "app/panels/panels.h"
+#include "app/panels/panel_list.h"
 #include "app/tools/transform_parts.h"
 #include "app/ui/item_list.h"
 

@@ -1,6 +1,6 @@
 // The panels of what is in the scene, and of which scene it is.
 
-#include "app/panels/panels.h"
+#include "app/panels/panel_list.h"
 #include "app/ui/item_list.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // The panels made from the settings table: Render, Display and the camera's rows.
 
-#include "app/panels/panels.h"
+#include "app/panels/panel_list.h"
 #include "app/panels/panels_probe.h"
 #include "app/tools/fly_camera.h"
 

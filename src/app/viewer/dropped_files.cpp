@@ -2,6 +2,7 @@
 
 #include "io/files/text_file.h"
 #include "io/images/image_file.h"
+#include "io/scene_formats.h"
 
 #include <fmt/format.h>
 
@@ -20,8 +21,9 @@ enum class Kind { scene, model, picture, part, other };
 
 Kind kind_of(const std::string& path) {
   const std::string ending = lower_ending(path);
-  if (ending == ".json" || ending == ".xml" || ending == ".ini") return Kind::scene;
-  if (ending == ".obj") return Kind::model;
+  if (const SceneFormat* format = scene_format(path); format != nullptr)
+    return format->is_model ? Kind::model : Kind::scene;
+  if (ending == kJobEnding) return Kind::scene;
   if (ending == ".mtl") return Kind::part;
   return is_image_name(path) ? Kind::picture : Kind::other;
 }
@@ -56,8 +58,8 @@ Dropped choose_in_folder(const std::string& folder) {
   auto& found = scenes.empty() ? models : scenes;
   if (found.size() == 1) return {found.front(), ""};
   if (found.empty())
-    return {"", fmt::format("{}: folder: there is no scene in it: drop a .json, .xml, .ini or .obj file",
-                            folder)};
+    return {"", fmt::format("{}: folder: there is no scene in it: drop a {} or {} file", folder,
+                            scene_endings(", "), kJobEnding)};
   std::ranges::sort(found);
   return {"", fmt::format("{}: folder: it has {} scenes ({}): drop one of them", folder, found.size(),
                           listed(found))};

@@ -41,7 +41,7 @@ void add_layers(const Imf::Header& header, int part, std::vector<ExrLayer>& laye
     known->second.emplace(lower(full.substr(prefix.size())), full);
   }
   for (const auto& [prefix, channels] : prefixes) {
-    auto named = [&](const char* key) {
+    auto named = [&channels = channels](const char* key) {
       auto found = channels.find(key);
       return found == channels.end() ? std::string() : found->second;
     };
