@@ -30,7 +30,7 @@ Document read_obj_scene(const FoundFile& file, const PathPolicy& policy, Warning
   if (!has_light(document.scene)) {
     LightDesc sky;
     sky.name = "sky";
-    sky.type = LightType::constant;
+    sky.model = ConstantLightModel{};
     document.scene.lights.push_back(std::move(sky));
     warnings.add({file.shown}, "nothing shines: a constant light is added");
   }

@@ -62,14 +62,15 @@ std::vector<ExportedFile> export_candela_json(Document document, const std::stri
     texture = std::move(moved);
   }
   for (LightDesc& light : document.scene.lights) {
-    if (!light.panorama) continue;
+    const auto panorama = light_panorama(light);
+    if (!panorama) continue;
     std::vector<std::string> sources;
-    for (const std::string& source : light.panorama->sources) sources.push_back(copier.reachable(source));
+    for (const std::string& source : panorama->sources) sources.push_back(copier.reachable(source));
     if (std::ranges::find(sources, "") != sources.end()) sources.clear();
-    if (sources == light.panorama->sources) continue;
-    auto moved = std::make_shared<Panorama>(*light.panorama);
+    if (sources == panorama->sources) continue;
+    auto moved = std::make_shared<Panorama>(*panorama);
     moved->sources = std::move(sources);
-    light.panorama = std::move(moved);
+    std::get<EnvironmentLightModel>(light.model).panorama = std::move(moved);
   }
   write_candela_json(document, path);
   return std::move(copier.copied);

@@ -14,9 +14,10 @@ bool same_value(const std::shared_ptr<const T>& a, const std::shared_ptr<const T
 }
 
 bool same_light(const LightDesc& a, const LightDesc& b) {
-  if (!same_value(a.panorama, b.panorama)) return false;
+  if (!same_value(light_panorama(a), light_panorama(b))) return false;
   LightDesc c = b;
-  c.panorama = a.panorama;
+  if (auto* environment = std::get_if<EnvironmentLightModel>(&c.model))
+    environment->panorama = light_panorama(a);
   return a == c;
 }
 
@@ -60,25 +61,6 @@ std::string mesh_problem(const Mesh& mesh) {
     if (std::max({t.x, t.y, t.z}) >= mesh.positions.size()) return "a vertex index is out of range";
   for (std::uint32_t slot : mesh.material_slots)
     if (slot >= mesh.slot_names.size()) return "a material slot is out of range";
-  return {};
-}
-
-std::string light_problem(const LightDesc& light) {
-  auto lacks = [&](std::string_view key, vec3 value) {
-    return light_uses(light.type, key) && glm::length(value) == 0;
-  };
-  if (lacks("direction", light.direction)) return "direction: is zero";
-  if (lacks("attenuation", light.attenuation)) return "attenuation: is zero";
-  if (lacks("up", light.up)) return "up: is zero";
-  if (light.panorama) {
-    const Image& image = light.panorama->image;
-    if (image.width <= 0 || image.height <= 0 ||
-        image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
-      return "panorama: its pixels do not fit its size";
-    for (vec3 pixel : image.pixels)
-      if (!(is_finite(pixel) && min_component(pixel) >= 0))
-        return "panorama: a pixel is negative or not finite";
-  }
   return {};
 }
 
@@ -188,9 +170,7 @@ std::string document_problem(const Document& document) {
     if (auto p = texture_problem(*scene.textures[i]); !p.empty()) return fmt::format("textures[{}].{}", i, p);
   }
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    const LightDesc& light = scene.lights[i];
-    if (auto p = row_problem(light_fields(), light, fmt::format("lights[{}].", i)); !p.empty()) return p;
-    if (auto p = light_problem(light); !p.empty()) return fmt::format("lights[{}].{}", i, p);
+    if (auto p = light_problem(scene.lights[i]); !p.empty()) return fmt::format("lights[{}].{}", i, p);
   }
   std::set<const Mesh*> checked;
   for (std::size_t i = 0; i < scene.instances.size(); ++i)

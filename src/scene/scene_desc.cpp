@@ -10,62 +10,7 @@ namespace candela {
 
 namespace {
 
-constexpr std::string_view kLightTypes[] = {"point", "directional", "constant", "spot", "environment"};
-constexpr std::string_view kMappings[] = {"latlong", "angular", "cross", "faces"};
 constexpr auto kInf = std::numeric_limits<double>::infinity();
-
-using L = LightDesc;
-template <class T, auto Member>
-void* member(T& owner) {
-  return &(owner.*Member);
-}
-
-const Field<LightDesc> kLightFields[] = {
-    {{"type", FieldType::choice, 0, 0, "",
-      "point, directional (a distant one), constant (all around), spot or environment (a panorama)",
-      Invalidates::scene, kLightTypes},
-     member<L, &L::type>},
-    {{"position", FieldType::point, -kInf, kInf, "", "Where the light is", Invalidates::scene},
-     member<L, &L::position>},
-    {{"direction", FieldType::point, -kInf, kInf, "",
-      "The direction in which the light travels; the axis of a spot", Invalidates::scene},
-     member<L, &L::direction>},
-    {{"cutoff_angle", FieldType::angle, 0.01, 180, "degrees",
-      "Angle from a spot's axis beyond which there is no light", Invalidates::scene},
-     member<L, &L::cutoff_angle>},
-    {{"beam_width", FieldType::angle, 0, 180, "degrees",
-      "Angle from a spot's axis up to which the intensity is full; from there it falls to the cutoff",
-      Invalidates::scene},
-     member<L, &L::beam_width>},
-    {{"attenuation", FieldType::point, 0, 1e9, "",
-      "a b c: intensity / (a + b r + c r^2) arrives at the distance r; 0 0 1 is physical",
-      Invalidates::scene},
-     member<L, &L::attenuation>},
-    {{"mapping", FieldType::choice, 0, 0, "",
-      "How the panorama shows the directions: latitude and longitude, Debevec's angular map, the cross of a "
-      "cube, its six faces",
-      Invalidates::scene, kMappings},
-     member<L, &L::mapping>},
-    {{"rotation", FieldType::angle, -360, 360, "degrees",
-      "Turns the panorama about its up axis, counter-clockwise seen from above", Invalidates::scene},
-     member<L, &L::rotation>},
-    {{"up", FieldType::point, -kInf, kInf, "", "The direction that is up in the panorama",
-      Invalidates::scene},
-     member<L, &L::up>},
-    {{"color",
-      FieldType::color,
-      0,
-      1e9,
-      "",
-      "point, spot: W/sr; directional: W/m^2 on a surface that faces it; constant: W/(m^2 sr); environment: "
-      "a factor",
-      Invalidates::scene,
-      {},
-      true},
-     member<L, &L::color>},
-    {{"scale", FieldType::real, 0, 1e9, "", "Multiplies the colour", Invalidates::scene, {}, true},
-     member<L, &L::scale>},
-};
 
 constexpr std::string_view kShapeNames[] = {"mesh", "sphere",   "rectangle", "disc", "plane",
                                             "cube", "cylinder", "cone",      "torus"};
@@ -100,17 +45,6 @@ const Field<Shape> kTorusFields[] = {
     length_row<TorusShape, &TorusShape::minor_radius>("minor_radius", "Of the tube; below radius")};
 
 } // namespace
-
-std::span<const Field<LightDesc>> light_fields() { return kLightFields; }
-
-bool light_uses(LightType type, std::string_view key) {
-  using enum LightType;
-  if (key == "position" || key == "attenuation") return type == point || type == spot;
-  if (key == "direction") return type == directional || type == spot;
-  if (key == "cutoff_angle" || key == "beam_width") return type == spot;
-  if (key == "mapping" || key == "rotation" || key == "up") return type == environment;
-  return true;
-}
 
 std::span<const std::string_view> shape_names() { return kShapeNames; }
 std::string_view shape_name(const Shape& shape) { return kShapeNames[shape.index()]; }

@@ -4,9 +4,9 @@
 
 #include "core/bounds.h"
 #include "core/fields.h"
+#include "scene/lights/light.h"
 #include "scene/materials/material.h"
 #include "scene/mesh.h"
-#include "scene/panorama.h"
 #include "scene/textures/texture.h"
 
 #include <memory>
@@ -38,35 +38,6 @@ struct Camera {
   float effective_focus_distance() const {
     return focus_distance > 0 ? focus_distance : glm::length(target - position);
   }
-};
-
-enum class LightType : int { point, directional, constant, spot, environment };
-
-/// Where a panorama has which direction; see render/lights/environment_map.h for the axes.
-enum class EnvironmentMapping : int { latlong, angular, cross, faces };
-
-/// A light without a shape; shapes shine by their material's emission.
-struct LightDesc {
-  std::string name;
-  LightType type = LightType::point;
-  vec3 position{0};         ///< of point and spot
-  vec3 direction{0, -1, 0}; ///< the light travels along it, of directional; the axis of spot; any length
-  /// Half the opening angle of spot, radians: no light beyond it. Full intensity within beam_width of the
-  /// axis, falling linearly with the angle between the two, as in Mitsuba; a wider beam is cut off sharply.
-  float cutoff_angle = radians(20.0f);
-  float beam_width = radians(15.0f);
-  /// Coefficients a, b, c of point and spot: at the distance r the irradiance on a facing surface is
-  /// intensity / (a + b r + c r^2). Anything but (0, 0, 1) is not physical.
-  vec3 attenuation{0, 0, 1};
-  std::shared_ptr<const Panorama> panorama; ///< of environment; null: the same from everywhere
-  EnvironmentMapping mapping = EnvironmentMapping::latlong;
-  float rotation = 0; ///< radians, turns the panorama about `up`, counter-clockwise seen from its tip
-  vec3 up{0, 1, 0};   ///< what the panorama's up (its +y) is in the world, of environment; any length
-  /// point, spot: intensity on the axis, W/sr; directional: irradiance on a surface facing it, W/m^2;
-  /// constant: radiance, W/(m^2 sr); environment: factor of the panorama's radiance
-  vec3 color{1};
-  float scale = 1;                                   ///< multiplies color
-  bool operator==(const LightDesc&) const = default; ///< the panorama by identity
 };
 
 // Shapes, in the space of their instance. Those with a `radius` stand on or lie around the z axis.
@@ -138,9 +109,6 @@ Bounds3 shape_bounds(const Shape& shape);
 /// squares where there is nothing else. Within kMaxCoordinate.
 Bounds3 instance_bounds(const std::vector<Instance>& instances);
 
-/// Rows of the editable values; the name and the panorama are not in them.
-std::span<const Field<LightDesc>> light_fields();
-
 /// What files call the kinds of shapes, by the index of the variant: "mesh", "sphere" …
 std::span<const std::string_view> shape_names();
 std::string_view shape_name(const Shape& shape);
@@ -152,8 +120,5 @@ std::span<const Field<Shape>> shape_fields(const Shape& shape);
 std::string shape_problem(const Shape& shape);
 /// The row with limits that leave no shape_problem, as the shape's other values are: for hands that edit it.
 FieldInfo shape_limits(const Shape& shape, const Field<Shape>& row);
-
-/// Whether a light of this type looks at the field: panels show only these.
-bool light_uses(LightType type, std::string_view key);
 
 } // namespace candela

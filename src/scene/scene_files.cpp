@@ -10,7 +10,8 @@ std::set<std::string> source_files(const SceneDesc& scene) {
   for (const auto& texture : scene.textures)
     if (const auto* image = texture->image()) files.insert(image->source);
   for (const LightDesc& light : scene.lights)
-    if (light.panorama) files.insert(light.panorama->sources.begin(), light.panorama->sources.end());
+    if (const auto panorama = light_panorama(light))
+      files.insert(panorama->sources.begin(), panorama->sources.end());
   files.erase("");
   return files;
 }

@@ -7,7 +7,7 @@ namespace candela {
 bool is_built_anew(const SceneDesc& before, const SceneDesc& now) {
   auto panoramas = [](const SceneDesc& scene) {
     std::set<const Panorama*> all;
-    for (const LightDesc& light : scene.lights) all.insert(light.panorama.get());
+    for (const LightDesc& light : scene.lights) all.insert(light_panorama(light).get());
     return all;
   };
   return (before.instances != now.instances && meshes_of(before.instances) != meshes_of(now.instances)) ||

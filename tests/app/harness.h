@@ -51,7 +51,7 @@ inline Document test_document() {
       {"ball", SphereShape{0.4f}, glm::translate(mat4(1), vec3(0.2f, -0.6f, 0.1f)), {ball}});
   LightDesc point;
   point.name = "spark";
-  point.position = {-0.6f, 0.2f, 0.5f};
+  point.model = PointLightModel{.position = {-0.6f, 0.2f, 0.5f}};
   point.color = vec3(0.2f);
   scene.lights.push_back(point);
   scene.camera.position = {0, 0, 3.6f};

@@ -36,11 +36,11 @@ TEST_F(FieldCases, EveryModelIsRead) {
 
 TEST_F(FieldCases, PicturesAndJobs) {
   const auto depth_first = read("exr_mp_depth_first/s.json");
-  EXPECT_GT(max_component(depth_first.document.scene.lights.at(0).panorama->image.pixels.at(0)), 0);
+  EXPECT_GT(max_component(light_panorama(depth_first.document.scene.lights.at(0))->image.pixels.at(0)), 0);
   float brightest = 0;
   for (const LightDesc& light : read("exr_half_inf/s.json").document.scene.lights)
-    if (light.panorama)
-      for (vec3 p : light.panorama->image.pixels) brightest = std::max(brightest, max_component(p));
+    if (const auto panorama = light_panorama(light))
+      for (vec3 p : panorama->image.pixels) brightest = std::max(brightest, max_component(p));
   EXPECT_EQ(brightest, 65504);
   EXPECT_EQ(read("ini_inline/j.ini").document.settings.film.width, 32);
 }

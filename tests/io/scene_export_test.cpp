@@ -33,9 +33,9 @@ TEST(SceneExport, CopiesPicturesFromElsewhereAndWritesMeshesInline) {
       nameless->name.clear(), nameless->source.clear();
       texture = nameless;
     }
-    auto nameless = std::make_shared<Panorama>(*scene->lights[0].panorama);
+    auto nameless = std::make_shared<Panorama>(*light_panorama(scene->lights[0]));
     nameless->name.clear(), nameless->sources.clear();
-    scene->lights[0].panorama = nameless;
+    std::get<EnvironmentLightModel>(scene->lights[0].model).panorama = nameless;
   }
   EXPECT_TRUE(same_content(document, again.document));
 }
@@ -51,7 +51,7 @@ TEST(SceneExport, NamesWhatLiesBesideIt) {
   std::filesystem::remove(files / "t/a.png"); // then the picture is written inline
   EXPECT_TRUE(export_candela_json(document, files / "inline.json").empty());
   Document again = files.read("inline.json").document;
-  EXPECT_EQ(again.scene.lights[0].panorama->image, document.scene.lights[0].panorama->image);
+  EXPECT_EQ(light_panorama(again.scene.lights[0])->image, light_panorama(document.scene.lights[0])->image);
 }
 
 TEST(SceneExport, CopiesNothingForAnInvalidDocument) {

@@ -126,7 +126,7 @@ TEST(ShippedScenes, TenThousandBallsDoNotTouch) {
 
 TEST(ShippedScenes, TheClearSkyHasItsSunWhereTheGeneratorPutsIt) {
   const LoadedScene ruin = read_scene(shipped("sun_and_sky.json"));
-  const Image& sky = ruin.document.scene.lights.at(0).panorama->image;
+  const Image& sky = light_panorama(ruin.document.scene.lights.at(0))->image;
   double sun = 0, all = 0;
   for (int y = 0; y < sky.height; ++y)
     for (int x = 0; x < sky.width; ++x) {

@@ -295,7 +295,7 @@ TEST(ClosedFormRender, ShadowRaysAreWeakenedByTransparentPlanes) {
       double exact = 0.6 / kPiD;
       if (sun) {
         LightDesc l;
-        l.type = LightType::directional;
+        l.model = DirectionalLightModel{};
         s.document.scene.lights.push_back(l);
       } else {
         s.rectangle(o + vec3(0, 4, 0), {1, 0, 0}, {0, 0, 1}, s.diffuse(vec3(0), vec3(1)));

@@ -198,7 +198,7 @@ TEST(NonFiniteRender, HugeValuesThatAreStillFloatsCount) {
   SceneMaker s(8, 8, 1);
   s.rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, s.diffuse(vec3(0.5f)));
   LightDesc l;
-  l.position = {0, 0, 2};
+  l.model = PointLightModel{.position = {0, 0, 2}};
   l.color = vec3(1e9f);
   l.scale = 1e9f;
   s.document.scene.lights.push_back(l);

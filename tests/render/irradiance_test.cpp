@@ -190,8 +190,7 @@ TEST(ClosedFormRender, TriangleMeshLight) {
 TEST(ClosedFormRender, PointLightFallsOffWithTheSquare) {
   SceneMaker s = plane_scene(4);
   LightDesc l;
-  l.type = LightType::point;
-  l.position = {1, 2, -2};
+  l.model = PointLightModel{.position = {1, 2, -2}};
   l.color = kLe;
   l.scale = 5;
   s.document.scene.lights.push_back(l);
@@ -201,12 +200,11 @@ TEST(ClosedFormRender, PointLightFallsOffWithTheSquare) {
 TEST(ClosedFormRender, DirectionalLightHasTheCosine) {
   SceneMaker s = plane_scene(4);
   LightDesc l;
-  l.type = LightType::directional;
-  l.direction = {2, -4, 4}; // any length
+  l.model = DirectionalLightModel{{2, -4, 4}}; // any length
   l.color = kLe;
   s.document.scene.lights.push_back(l);
   expect_irradiance(s, dvec3(kLe) * (2.0 / 3));
-  s.document.scene.lights.back().direction = {2, 4, 4}; // from below
+  s.document.scene.lights.back().model = DirectionalLightModel{{2, 4, 4}}; // from below
   expect_dark(s);
 }
 
@@ -224,13 +222,12 @@ TEST(ClosedFormRender, LightsOfAllKindsAdd) {
   s.disc({0, 2, 0}, 1, {1, 0, 0}, {0, 0, 1}, s.diffuse(vec3(0), kLe));
   e += dvec3(kLe) * disc_irradiance(1, 2);
   LightDesc sun;
-  sun.type = LightType::directional;
-  sun.direction = {-1, -1, 0};
+  sun.model = DirectionalLightModel{{-1, -1, 0}};
   sun.color = {0.5f, 1, 2};
   s.document.scene.lights.push_back(sun);
   e += dvec3(0.5, 1, 2) / std::numbers::sqrt2;
   LightDesc lamp;
-  lamp.position = {0, 1, -1};
+  lamp.model = PointLightModel{.position = {0, 1, -1}};
   lamp.color = {1, 2, 1};
   s.document.scene.lights.push_back(lamp);
   e += dvec3(1, 2, 1) / (2 * std::numbers::sqrt2);

@@ -86,12 +86,11 @@ inline Document sky_sun_and_lamp_scene() {
   s.disc({-1.5f, 1, 0.5f}, 0.6f, {0, 1, 0}, {0, 0, 1}, s.diffuse(vec3(0.2f), {4, 2, 1}));
   s.constant_light({0.5f, 0.7f, 1});
   LightDesc sun;
-  sun.type = LightType::directional;
-  sun.direction = {-1, -2, -1};
+  sun.model = DirectionalLightModel{{-1, -2, -1}};
   sun.color = {2, 1.5f, 1};
   s.document.scene.lights.push_back(sun);
   LightDesc lamp;
-  lamp.position = {1.5f, 1.5f, 1};
+  lamp.model = PointLightModel{.position = {1.5f, 1.5f, 1}};
   lamp.color = {2, 3, 1};
   s.document.scene.lights.push_back(lamp);
   s.camera({0, 3, 5}, {0, 0.5f, 0}, 45);
@@ -112,16 +111,11 @@ inline Document environment_scene() {
                                                    : vec3(0.3f, 0.5f, 1));
     }
   LightDesc sky;
-  sky.type = LightType::environment;
-  sky.panorama = panorama;
-  sky.rotation = 1;
+  sky.model = EnvironmentLightModel{.rotation = 1, .panorama = panorama};
   s.document.scene.lights.push_back(sky);
   LightDesc spot;
-  spot.type = LightType::spot;
-  spot.position = {1.5f, 2, 1};
-  spot.direction = {-1, -1.5f, -0.5f};
-  spot.cutoff_angle = 0.7f;
-  spot.beam_width = 0.3f;
+  spot.model = SpotLightModel{
+      .position = {1.5f, 2, 1}, .direction = {-1, -1.5f, -0.5f}, .cutoff_angle = 0.7f, .beam_width = 0.3f};
   spot.color = {6, 9, 3};
   s.document.scene.lights.push_back(spot);
   mat4 upright = glm::rotate(mat4(1), -0.5f * kPi, vec3(1, 0, 0)); // z becomes y

@@ -110,7 +110,7 @@ TEST(RenderSession, EmissionEditRebuildsLights) {
   ASSERT_TRUE(shows(session, d));
   d.scene.materials[0].emission = {0.5f, 0.5f, 0.5f};
   LightDesc bulb;
-  bulb.position = {278, 273, 279};
+  bulb.model = PointLightModel{.position = {278, 273, 279}};
   bulb.color = vec3(1e5f);
   d.scene.lights.push_back(bulb);
   ASSERT_TRUE(shows(session, d));

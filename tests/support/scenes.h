@@ -61,7 +61,7 @@ public:
   }
   void constant_light(vec3 radiance) {
     LightDesc l;
-    l.type = LightType::constant;
+    l.model = ConstantLightModel{};
     l.color = radiance;
     document.scene.lights.push_back(l);
   }

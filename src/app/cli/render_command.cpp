@@ -166,8 +166,8 @@ std::vector<std::string> picture_files(const SceneDesc& scene) {
   for (const auto& texture : scene.textures)
     if (const auto* image = texture->image()) files.push_back(image->source);
   for (const LightDesc& light : scene.lights)
-    if (light.panorama)
-      files.insert(files.end(), light.panorama->sources.begin(), light.panorama->sources.end());
+    if (const auto panorama = light_panorama(light))
+      files.insert(files.end(), panorama->sources.begin(), panorama->sources.end());
   std::erase(files, "");
   return files;
 }

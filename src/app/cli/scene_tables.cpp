@@ -33,72 +33,60 @@ std::string default_cell(const std::vector<std::string_view>& types, const std::
   return out;
 }
 
-/// `made(type)` is the thing of that type, `uses(index of the type, key)` whether it looks at the value.
-template <class T, class Made, class Uses>
-std::string typed_table(std::span<const Field<T>> rows, Made made, Uses uses) {
-  const auto all = rows.front().choices;
-  std::vector<T> defaults;
-  for (std::string_view type : all) defaults.push_back(made(type));
-  std::string out = "| key | of | values | default | meaning |\n|---|---|---|---|---|\n";
-  for (const auto& row : rows) {
-    std::vector<std::string_view> types;
+/// A line for each key that means the same to its types, in the order in which the types name them; what all
+/// have comes last. `defaults` has a thing of each type, `rows_of(thing)` its rows; `domain(row)` is what a
+/// value may be.
+template <class T, class RowsOf, class Domain>
+std::string typed_table(const FieldInfo& type_row, const std::vector<T>& defaults, RowsOf rows_of,
+                        Domain domain) {
+  using Row = std::remove_cvref_t<decltype(rows_of(defaults.front()).front())>;
+  auto is_same = [](const FieldInfo& a, const FieldInfo& b) {
+    return a.key == b.key && a.help == b.help && field_domain(a) == field_domain(b);
+  };
+  std::vector<const Row*> lines;
+  for (const T& thing : defaults)
+    for (const Row& row : rows_of(thing))
+      if (std::ranges::none_of(lines, [&](const Row* line) { return is_same(*line, row); }))
+        lines.push_back(&row);
+  std::string of_types, of_all;
+  for (const Row* line : lines) {
+    std::vector<std::string_view> of;
     std::vector<std::string> values;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (uses(static_cast<int>(i), row.key))
-        types.push_back(all[i]), values.push_back(field_text(row, defaults[i]));
-    const std::string value =
-        &row == &rows.front() ? fmt::format("`{}`", field_text(row, T())) : default_cell(types, values);
-    out += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.key,
-                       types.size() == all.size() ? "all" : markdown_cell(joined(types)),
-                       markdown_cell(field_domain(row)), value, markdown_cell(row.help));
+    for (std::size_t type = 0; type < defaults.size(); ++type)
+      for (const Row& row : rows_of(defaults[type]))
+        if (is_same(*line, row))
+          of.push_back(type_row.choices[type]), values.push_back(field_text(row, defaults[type]));
+    const bool all = of.size() == defaults.size();
+    (all ? of_all : of_types) +=
+        fmt::format("| `{}` | {} | {} | {} | {} |\n", line->key, all ? "all" : markdown_cell(joined(of)),
+                    domain(*line), default_cell(of, values), markdown_cell(line->help));
   }
-  return out;
+  return fmt::format("| key | of | values | default | meaning |\n|---|---|---|---|---|\n"
+                     "| `{}` | all | {} | `{}` | {} |\n{}{}",
+                     type_row.key, markdown_cell(field_domain(type_row)), type_row.choices.front(),
+                     markdown_cell(type_row.help), of_types, of_all);
 }
 
 } // namespace
 
 std::string materials_markdown() {
-  const auto types = material_type_names();
   std::vector<Material> defaults;
-  for (std::string_view type : types) defaults.push_back(scene_with("materials", type).materials.front());
-  const FieldInfo& type_row = material_type_field();
-  std::string out = "| key | of | values | default | meaning |\n|---|---|---|---|---|\n";
-  out += fmt::format("| `{}` | all | {} | `{}` | {} |\n", type_row.key, markdown_cell(field_domain(type_row)),
-                     material_type_name(Material()), markdown_cell(type_row.help));
-  // A line for each key that means the same to its types, in the order in which the types name them; what all
-  // have comes last.
-  std::vector<const MaterialField*> lines;
-  auto is_same = [](const FieldInfo& a, const FieldInfo& b) {
-    return a.key == b.key && a.help == b.help && field_domain(a) == field_domain(b);
-  };
-  for (const Material& material : defaults)
-    for (const MaterialField& row : material_fields(material))
-      if (std::ranges::none_of(lines, [&](const auto* line) { return is_same(*line, row); }))
-        lines.push_back(&row);
-  auto is_common = [](const MaterialField* row) {
-    return std::ranges::find(common_material_fields(), row->key, &FieldInfo::key) !=
-           common_material_fields().end();
-  };
-  std::ranges::stable_partition(lines, [&](const auto* row) { return !is_common(row); });
-  for (const MaterialField* line : lines) {
-    std::vector<std::string_view> of;
-    std::vector<std::string> values;
-    for (const Material& material : defaults)
-      for (const MaterialField& row : material_fields(material))
-        if (is_same(*line, row))
-          of.push_back(material_type_name(material)), values.push_back(field_text(row, material));
-    out += fmt::format("| `{}` | {} | {}{} | {} | {} |\n", line->key,
-                       of.size() == types.size() ? "all" : markdown_cell(joined(of)),
-                       markdown_cell(field_domain(*line)), line->parameter != nullptr ? ", or a texture" : "",
-                       default_cell(of, values), markdown_cell(line->help));
-  }
-  return out;
+  for (std::string_view type : material_type_names())
+    defaults.push_back(scene_with("materials", type).materials.front());
+  return typed_table(
+      material_type_field(), defaults, [](const Material& material) { return material_fields(material); },
+      [](const MaterialField& row) {
+        return markdown_cell(field_domain(row)) + (row.parameter != nullptr ? ", or a texture" : "");
+      });
 }
 
 std::string lights_markdown() {
+  std::vector<LightDesc> defaults;
+  for (std::string_view type : light_type_names())
+    defaults.push_back(scene_with("lights", type).lights.front());
   return typed_table(
-      light_fields(), [](std::string_view type) { return scene_with("lights", type).lights.front(); },
-      [](int type, std::string_view key) { return light_uses(static_cast<LightType>(type), key); });
+      light_type_field(), defaults, [](const LightDesc& light) { return light_fields(light); },
+      [](const FieldInfo& row) { return markdown_cell(field_domain(row)); });
 }
 
 std::string shapes_markdown() {

@@ -21,16 +21,25 @@ void* initial_of(const Field<T>& row, std::vector<T>& home, std::size_t index) {
 
 void light_fields_of(Ui& ui, ViewerState& state, std::size_t index) {
   LightDesc& light = state.document.scene.lights[index];
-  for (const auto& row : light_fields()) {
-    if (!light_uses(light.type, row.key)) continue;
+  auto& home = state.home.scene.lights;
+  const bool same_type = index < home.size() && light_type(home[index]) == light_type(light);
+  int type = light_type(light), home_type = index < home.size() ? light_type(home[index]) : type;
+  FieldContext of_type;
+  of_type.initial = &home_type;
+  if (ui.field("light.type", light_type_field(), &type, of_type)) {
+    change_type(light, type);
+    state.edited = true;
+    return; // the rows are others now
+  }
+  for (const auto& row : light_fields(light)) {
     FieldContext context;
-    context.initial = initial_of(row, state.home.scene.lights, index);
+    context.initial = same_type ? initial_of(row, home, index) : nullptr;
     context.drag_speed = 0.005f * state.natural_speed;
     state.edited |= ui.field(fmt::format("light.{}", row.key), row, row.address(light), context);
   }
 }
 
-void panorama_of(Ui& ui, ViewerState& state, const LightDesc& light) {
+void panorama_of(Ui& ui, ViewerState& state, const EnvironmentLightModel& light) {
   ui.readout("panorama", light.panorama ? light.panorama->name : "none: the same from everywhere",
              "The picture that the light comes from");
   const float button = 64 * ui.scale();
@@ -126,7 +135,8 @@ void lights_panel(Ui& ui, ViewerState& state) {
   ImGui::PushID(state.selected_light);
   if (selected < lights.size()) {
     light_fields_of(ui, state, selected);
-    if (lights[selected].type == LightType::environment) panorama_of(ui, state, lights[selected]);
+    if (const auto* environment = std::get_if<EnvironmentLightModel>(&lights[selected].model))
+      panorama_of(ui, state, *environment);
   } else {
     emission_fields_of(ui, state, shining[selected - lights.size()]);
   }

@@ -112,7 +112,8 @@ std::string edit_name(const EditState& before, const EditState& after) {
   add(list_edit(a.instances, b.instances, "Object", "objects", instance_edit));
   add(list_edit(a.materials, b.materials, "Material", "materials", material_edit));
   add(list_edit(a.lights, b.lights, "Light", "lights", [](const LightDesc& x, const LightDesc& y) {
-    return joined(changed_keys(light_fields(), x, y));
+    if (light_type(x) != light_type(y)) return std::string("type");
+    return joined(changed_keys(light_fields(x), x, y));
   }));
   add(list_edit(a.bookmarks, b.bookmarks, "Bookmark", "bookmarks",
                 [](const Bookmark&, const Bookmark&) { return std::string(); }));

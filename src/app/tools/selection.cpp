@@ -63,9 +63,9 @@ std::optional<BoxCorners> SelectionBox::corners(const SceneDesc& scene, const Se
   BoxCorners corners;
   const auto index = static_cast<std::size_t>(selection.index);
   if (selection.kind == Selection::Kind::light) {
-    const LightDesc& light = scene.lights[index];
-    if (!light_uses(light.type, "position")) return std::nullopt;
-    corners.fill(light.position);
+    const vec3* position = light_position(scene.lights[index]);
+    if (position == nullptr) return std::nullopt;
+    corners.fill(*position);
     return corners;
   }
   if (selection.kind == Selection::Kind::none) return std::nullopt;

@@ -197,10 +197,10 @@ void Viewer::watch_files(FileStamps known) {
 void Viewer::read_panoramas_again(const std::set<std::string>& changed) {
   std::set<std::shared_ptr<const Panorama>> old;
   for (const LightDesc& light : state_.document.scene.lights)
-    if (light.panorama && std::ranges::any_of(light.panorama->sources, [&](const std::string& source) {
-          return changed.contains(source);
-        }))
-      old.insert(light.panorama);
+    if (const auto panorama = light_panorama(light);
+        panorama && std::ranges::any_of(panorama->sources,
+                                        [&](const std::string& source) { return changed.contains(source); }))
+      old.insert(panorama);
   for (const auto& panorama : old)
     reader_.post([this, panorama]() -> TaskThread::Completion {
       try {
@@ -208,7 +208,8 @@ void Viewer::read_panoramas_again(const std::set<std::string>& changed) {
         auto fresh = read_panorama(panorama->sources, corrections);
         return [this, panorama, fresh] {
           for (LightDesc& light : state_.document.scene.lights)
-            if (light.panorama == panorama) light.panorama = fresh, state_.edited = true;
+            if (light_panorama(light) == panorama)
+              std::get<EnvironmentLightModel>(light.model).panorama = fresh, state_.edited = true;
           notify(fmt::format("{} was read again", panorama->name));
         };
       } catch (const std::exception& error) {

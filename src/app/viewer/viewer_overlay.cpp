@@ -101,8 +101,8 @@ std::vector<Viewer::LightIcon> Viewer::light_icons(const ScreenProjection& scree
   std::vector<LightIcon> icons;
   const auto& lights = state_.document.scene.lights;
   for (std::size_t i = 0; i < lights.size(); ++i)
-    if (light_uses(lights[i].type, "position"))
-      if (const auto at = screen.point(lights[i].position)) icons.push_back({static_cast<int>(i), *at});
+    if (const vec3* position = light_position(lights[i]))
+      if (const auto at = screen.point(*position)) icons.push_back({static_cast<int>(i), *at});
   return icons;
 }
 

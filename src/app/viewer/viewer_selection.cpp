@@ -83,7 +83,8 @@ void Viewer::drag_gizmo(vec2 mouse) {
   const auto index = static_cast<std::size_t>(state_.selection.index);
   SceneDesc& scene = state_.document.scene;
   if (state_.selection.kind == Selection::Kind::light) {
-    scene.lights[index].position = transform_point(moved, before_drag_.scene.lights[index].position);
+    if (vec3* position = light_position(scene.lights[index]))
+      *position = transform_point(moved, *light_position(before_drag_.scene.lights[index]));
   } else {
     const mat4 placed = moved * before_drag_.scene.instances[index].world_from_object;
     for (int c = 0; c < 4; ++c)

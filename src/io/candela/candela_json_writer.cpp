@@ -150,9 +150,11 @@ private:
     for (const LightDesc& light : scene_.lights) {
       std::vector<std::string> members;
       if (!light.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(light.name)));
-      for (std::string& row : changed_rows(light_fields(), light)) members.push_back(std::move(row));
-      if (light.panorama && light.type == LightType::environment)
-        members.push_back(panorama(*light.panorama));
+      if (light.model.index() != LightDesc().model.index())
+        members.push_back(fmt::format("\"type\": {}", json_quoted(light_type_name(light))));
+      for (std::string& row : changed_rows(light_fields(light), light, "", default_light(light_type(light))))
+        members.push_back(std::move(row));
+      if (const auto picture = light_panorama(light)) members.push_back(panorama(*picture));
       out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
     }
     return out;

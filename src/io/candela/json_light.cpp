@@ -61,52 +61,68 @@ std::vector<FoundFile> read_faces(JsonValue array, const std::string& element, c
   return files;
 }
 
+bool is_key_of_another_type(std::string_view key) {
+  for (int type = 0; type < kLightTypeCount; ++type)
+    for (const auto& row : light_fields(type))
+      if (row.key == key) return true;
+  return false;
+}
+
 } // namespace
 
 LightDesc read_json_light(JsonValue object, const std::string& element, SceneBuilder& builder,
                           const std::string& folder) {
-  auto known = keys_of(light_fields(), {"name", "file", "files", "image"});
   LightDesc light;
+  for (auto [key, value] : object.members()) // it decides which other keys there are
+    if (key.string() == "type") {
+      int type = 0;
+      read_field(light_type_field(), &type, value, element + ".type");
+      light = default_light(type);
+    }
+  auto* environment = std::get_if<EnvironmentLightModel>(&light.model);
+  std::vector<std::string_view> known = keys_of(light_fields(light), {"name", "type"});
+  if (environment != nullptr) known.insert(known.end(), {"file", "files", "image"});
   std::optional<JsonValue> mapping, picture, files;
   for (auto [key, value] : object.members()) {
     std::string name = fmt::format("{}.{}", element, key.string());
+    if (key.string() == "type") continue;
     if (key.string() == "name") {
       light.name = read_string(value, name);
     } else if (key.string() == "file" || key.string() == "files" || key.string() == "image") {
+      if (environment == nullptr)
+        throw input_error(value.where(), element, "only an environment has a picture",
+                          "say \"type\": \"environment\"");
       if (picture)
         throw input_error(key.where(), element, "it has two panoramas",
                           "keep one of \"file\", \"files\" and \"image\"");
       picture = value;
       if (key.string() == "file")
-        light.panorama = builder.panorama(
+        environment->panorama = builder.panorama(
             {builder.policy().require(read_string(value, name), folder, value.where(), name)});
       else if (key.string() == "files")
-        files = key, light.panorama = builder.panorama(read_faces(value, name, builder.policy(), folder));
+        files = key,
+        environment->panorama = builder.panorama(read_faces(value, name, builder.policy(), folder));
       else
-        light.panorama = read_inline(value, name, builder.warnings());
-    } else if (read_row(light_fields(), light, key, value, element)) {
+        environment->panorama = read_inline(value, name, builder.warnings());
+    } else if (read_row(light_fields(light), light, key, value, element)) {
       if (key.string() == "mapping") mapping = value;
+    } else if (is_key_of_another_type(key.string())) {
+      builder.warnings().add(key.where(), fmt::format("{}: a light of the type {} has no such value", name,
+                                                      light_type_name(light)));
     } else {
       throw unknown_key(key, element, known);
     }
   }
-  auto lacks = [&](std::string_view key, vec3 v) { return light_uses(light.type, key) && is_black(v); };
-  if (lacks("direction", light.direction))
-    throw input_error(object.where(), element, "its direction has no length", "give a direction");
-  if (lacks("up", light.up))
-    throw input_error(object.where(), element, "its up has no length", "give a direction");
-  if (lacks("attenuation", light.attenuation))
-    throw input_error(object.where(), element, "its attenuation is zero", "give [0, 0, 1] for 1 / r^2");
-  if (picture && light.type != LightType::environment)
-    throw input_error(picture->where(), element, "only an environment has a picture",
-                      "say \"type\": \"environment\"");
-  if (files && !mapping) light.mapping = EnvironmentMapping::faces;
-  if (files && light.mapping != EnvironmentMapping::faces)
+  if (files && !mapping) environment->mapping = EnvironmentMapping::faces;
+  if (files && environment->mapping != EnvironmentMapping::faces)
     throw input_error(mapping->where(), element + ".mapping", "six files are the faces of a cube",
                       "give \"faces\", or one \"file\"");
-  if (light.panorama) {
-    const Image& image = light.panorama->image;
-    auto problem = mapping_problem(light.mapping, image.width, image.height);
+  if (const std::string problem = light_problem(light); !problem.empty())
+    throw input_error(object.where(), element, problem.substr(0, problem.find("; ")),
+                      problem.substr(problem.find("; ") + 2));
+  if (environment != nullptr && environment->panorama) {
+    const Image& image = environment->panorama->image;
+    auto problem = mapping_problem(environment->mapping, image.width, image.height);
     if (!problem.empty()) builder.warnings().add(picture->where(), problem);
   }
   return light;

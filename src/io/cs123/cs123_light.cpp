@@ -6,22 +6,17 @@ namespace candela {
 
 namespace {
 
-/// Sets the type; whether it is an area light.
-bool read_type(pugi::xml_node part, const XmlPlaces& places, LightType& type) {
+Cs123Light::Type read_type(pugi::xml_node part, const XmlPlaces& places) {
+  using enum Cs123Light::Type;
   auto attribute = part.attribute("v") ? part.attribute("v") : part.attribute("value");
   std::string_view name = attribute.value();
-  if (name == "area") return true;
-  if (name == "point")
-    type = LightType::point;
-  else if (name == "directional")
-    type = LightType::directional;
-  else if (name == "spot")
-    type = LightType::spot;
-  else
-    throw input_error(attribute ? places.attribute(attribute, part) : places.element(part), "lightdata",
-                      fmt::format("there is no light type '{}'", name.substr(0, 40)),
-                      "give point, directional, spot or area");
-  return false;
+  if (name == "area") return area;
+  if (name == "point") return point;
+  if (name == "directional") return directional;
+  if (name == "spot") return spot;
+  throw input_error(attribute ? places.attribute(attribute, part) : places.element(part), "lightdata",
+                    fmt::format("there is no light type '{}'", name.substr(0, 40)),
+                    "give point, directional, spot or area");
 }
 
 float number_between(pugi::xml_node part, const Cs123Values& values, float low, float high) {
@@ -54,9 +49,7 @@ vec3 attenuation_of(pugi::xml_node part, const Cs123Values& values) {
 
 Cs123Light read_cs123_light(pugi::xml_node data, const Cs123Values& values) {
   const XmlPlaces& places = values.places();
-  Cs123Light out;
-  LightDesc& light = out.light;
-  light.name = "light";
+  Cs123Light light;
   std::optional<pugi::xml_node> function;
   float penumbra = 0;
   for (pugi::xml_node part : data.children()) {
@@ -65,7 +58,7 @@ Cs123Light read_cs123_light(pugi::xml_node data, const Cs123Values& values) {
     if (name == "id")
       light.name = fmt::format("light {}", values.number(part, {"v", "value"}));
     else if (name == "type")
-      out.is_area = read_type(part, places, light.type);
+      light.type = read_type(part, places);
     else if (name == "position" || name == "pos")
       light.position = values.vector(part);
     else if (name == "direction" || name == "dir")
@@ -79,29 +72,39 @@ Cs123Light read_cs123_light(pugi::xml_node data, const Cs123Values& values) {
     else if (name == "penumbra")
       penumbra = radians(number_between(part, values, 0, 180));
     else if (name == "width")
-      out.width = positive(part, values);
+      light.width = positive(part, values);
     else if (name == "height")
-      out.height = positive(part, values);
+      light.height = positive(part, values);
     else
       values.ignore(part);
   }
   light.beam_width = std::max(light.cutoff_angle - penumbra, 0.0f);
-  bool at_a_point = !out.is_area && light.type != LightType::directional;
-  if (function && at_a_point) {
+  using enum Cs123Light::Type;
+  if (function && (light.type == point || light.type == spot)) {
     light.attenuation = attenuation_of(*function, values);
     if (light.attenuation.x > 0 || light.attenuation.y > 0)
       values.warnings().add(places.element(*function),
                             "a light's function of distance is not physical: that would be 0 0 1");
   }
-  if ((out.is_area || light_uses(light.type, "direction")) && is_black(light.direction))
+  if (light.type != point && is_black(light.direction))
     throw input_error(places.element(data), "lightdata", "its direction has no length", "give a direction");
-  return out;
+  return light;
 }
 
-void add_cs123_light(SceneDesc& scene, SceneBuilder& builder, Cs123Light source) {
-  LightDesc& light = source.light;
-  if (!source.is_area) {
-    scene.lights.push_back(std::move(light));
+void add_cs123_light(SceneDesc& scene, SceneBuilder& builder, Cs123Light light) {
+  using enum Cs123Light::Type;
+  if (light.type != area) {
+    LightDesc made;
+    made.name = std::move(light.name);
+    made.color = light.color;
+    if (light.type == point)
+      made.model = PointLightModel{light.position, light.attenuation};
+    else if (light.type == directional)
+      made.model = DirectionalLightModel{light.direction};
+    else
+      made.model = SpotLightModel{light.position, light.direction, light.cutoff_angle, light.beam_width,
+                                  light.attenuation};
+    scene.lights.push_back(std::move(made));
     return;
   }
   Material material;
@@ -115,7 +118,7 @@ void add_cs123_light(SceneDesc& scene, SceneBuilder& builder, Cs123Light source)
   vec3 z = glm::normalize(light.direction), x = glm::cross(vec3(0, 1, 0), z);
   x = length_squared(x) > 1e-12f ? glm::normalize(x) : vec3(1, 0, 0);
   vec3 y = glm::normalize(glm::cross(z, x));
-  instance.world_from_object = mat4(vec4(0.5f * source.width * x, 0), vec4(0.5f * source.height * y, 0),
+  instance.world_from_object = mat4(vec4(0.5f * light.width * x, 0), vec4(0.5f * light.height * y, 0),
                                     vec4(z, 0), vec4(light.position, 1));
   scene.instances.push_back(std::move(instance));
 }

@@ -6,11 +6,16 @@
 
 namespace candela {
 
-/// A light, or the rectangle that an area light is.
+/// What `<lightdata>` says; an area light becomes a rectangle.
 struct Cs123Light {
-  LightDesc light;
-  bool is_area = false;
-  float width = 1, height = 1; ///< of an area light
+  enum class Type { point, directional, spot, area };
+  std::string name = "light";
+  Type type = Type::point;
+  vec3 color{1};
+  vec3 position{0}, direction{0, -1, 0};
+  vec3 attenuation{0, 0, 1};
+  float cutoff_angle = radians(20.0f), beam_width = 0; ///< radians, of a spot
+  float width = 1, height = 1;                         ///< of an area light
 };
 
 /// Reads `<lightdata>`. Where the format's description leaves room:

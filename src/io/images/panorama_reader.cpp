@@ -92,19 +92,26 @@ EnvironmentMapping likely_mapping(const Image& image) {
 std::size_t set_environment(SceneDesc& scene, std::shared_ptr<const Panorama> panorama,
                             std::size_t preferred) {
   auto& lights = scene.lights;
-  auto light = std::ranges::find(lights, LightType::environment, &LightDesc::type);
-  if (preferred < lights.size() && lights[preferred].type == LightType::environment)
+  auto is_environment = [](const LightDesc& l) {
+    return std::holds_alternative<EnvironmentLightModel>(l.model);
+  };
+  auto is_constant = [](const LightDesc& l) { return std::holds_alternative<ConstantLightModel>(l.model); };
+  auto light = std::ranges::find_if(lights, is_environment);
+  if (preferred < lights.size() && is_environment(lights[preferred]))
     light = lights.begin() + static_cast<std::ptrdiff_t>(preferred);
-  if (light == lights.end()) light = std::ranges::find(lights, LightType::constant, &LightDesc::type);
+  if (light == lights.end()) light = std::ranges::find_if(lights, is_constant);
   if (light == lights.end()) {
     LightDesc fresh;
     fresh.name = "environment";
     light = lights.insert(lights.end(), fresh);
   }
-  if (light->type != LightType::environment) light->color = vec3(1), light->scale = 1;
-  light->type = LightType::environment;
-  light->mapping = likely_mapping(panorama->image);
-  light->panorama = std::move(panorama);
+  if (!is_environment(*light)) {
+    light->color = vec3(1), light->scale = 1;
+    light->model = EnvironmentLightModel{};
+  }
+  auto& model = std::get<EnvironmentLightModel>(light->model);
+  model.mapping = likely_mapping(panorama->image);
+  model.panorama = std::move(panorama);
   return static_cast<std::size_t>(light - lights.begin());
 }
 

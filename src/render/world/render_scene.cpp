@@ -11,7 +11,7 @@ namespace candela {
 namespace {
 
 /// First `rotation` about +y, then the smallest turn that takes +y to `up`.
-mat3 world_from_panorama(const LightDesc& light) {
+mat3 world_from_panorama(const EnvironmentLightModel& light) {
   glm::dvec3 up = glm::normalize(glm::dvec3(light.up)), y(0, 1, 0), axis = glm::cross(y, up);
   double sine = glm::length(axis), tilt = std::atan2(sine, up.y);
   axis = sine > 0 ? axis / sine : glm::dvec3(1, 0, 0);
@@ -177,8 +177,8 @@ void SceneLights::add_emitters(const Progress* progress) {
   }
 }
 
-const EnvironmentMap* SceneLights::environment_map(const LightDesc& light, const SceneLights* previous,
-                                                   const Progress* progress) {
+const EnvironmentMap* SceneLights::environment_map(const EnvironmentLightModel& light,
+                                                   const SceneLights* previous, const Progress* progress) {
   auto fits = [&](const auto& map) {
     return map->panorama() == light.panorama && map->mapping() == light.mapping;
   };
@@ -196,30 +196,33 @@ const EnvironmentMap* SceneLights::environment_map(const LightDesc& light, const
 
 void SceneLights::add_lights(const std::vector<LightDesc>& lights, const SceneLights* previous,
                              const Progress* progress) {
-  for (const LightDesc& l : lights) {
-    vec3 color = l.color * l.scale;
+  for (const LightDesc& desc : lights) {
+    const vec3 color = desc.color * desc.scale;
     if (is_black(color)) continue;
-    bool infinite = l.type == LightType::constant || l.type == LightType::environment;
-    if (infinite) infinite_lights_.push_back(static_cast<std::uint32_t>(lights_.size()));
-    switch (l.type) {
-    case LightType::point: lights_.emplace_back(PointLight{l.position, color, l.attenuation}); break;
-    case LightType::spot:
-      lights_.emplace_back(SpotLight{l.position, glm::normalize(l.direction),
-                                     std::min(l.beam_width, l.cutoff_angle), l.cutoff_angle, color,
-                                     l.attenuation});
-      break;
-    case LightType::directional:
-      lights_.emplace_back(DirectionalLight{glm::normalize(l.direction), color});
-      break;
-    case LightType::constant: lights_.emplace_back(ConstantLight{color}); break;
-    case LightType::environment:
-      if (l.panorama)
-        lights_.emplace_back(
-            EnvironmentLight{environment_map(l, previous, progress), world_from_panorama(l), color});
-      else
-        lights_.emplace_back(ConstantLight{color});
-      break;
-    }
+    auto made = [&](const auto& m) -> Light {
+      using Model = std::decay_t<decltype(m)>;
+      if constexpr (std::is_same_v<Model, PointLightModel>)
+        return PointLight{m.position, color, m.attenuation};
+      else if constexpr (std::is_same_v<Model, SpotLightModel>)
+        return SpotLight{m.position,
+                         glm::normalize(m.direction),
+                         std::min(m.beam_width, m.cutoff_angle),
+                         m.cutoff_angle,
+                         color,
+                         m.attenuation};
+      else if constexpr (std::is_same_v<Model, DirectionalLightModel>)
+        return DirectionalLight{glm::normalize(m.direction), color};
+      else if constexpr (std::is_same_v<Model, EnvironmentLightModel>) {
+        if (m.panorama)
+          return EnvironmentLight{environment_map(m, previous, progress), world_from_panorama(m), color};
+        return ConstantLight{color};
+      } else
+        return ConstantLight{color};
+    };
+    const Light light = std::visit(made, desc.model);
+    if (light_kind(light) == LightKind::infinite)
+      infinite_lights_.push_back(static_cast<std::uint32_t>(lights_.size()));
+    lights_.push_back(light);
   }
 }
 

@@ -77,7 +77,7 @@ private:
   void add_emitter(std::uint64_t emitter, const SurfaceMaterial& material, Light light);
   void add_lights(const std::vector<LightDesc>& lights, const SceneLights* previous,
                   const Progress* progress);
-  const EnvironmentMap* environment_map(const LightDesc& light, const SceneLights* previous,
+  const EnvironmentMap* environment_map(const EnvironmentLightModel& light, const SceneLights* previous,
                                         const Progress* progress);
   void add_selections(const Progress* progress);
 

@@ -63,8 +63,8 @@ TEST(ScaleScenes, ReadBackWithoutWarnings) {
   EXPECT_GE(std::get<std::shared_ptr<const Mesh>>(hills.instances[0].shape)->triangles.size(), 2'000u);
   EXPECT_EQ(hills.textures.size(), 2u);
   ASSERT_EQ(hills.lights.size(), 1u);
-  ASSERT_NE(hills.lights[0].panorama, nullptr);
-  EXPECT_EQ(hills.lights[0].panorama->image.width, kTiny.sky);
+  ASSERT_NE(light_panorama(hills.lights[0]), nullptr);
+  EXPECT_EQ(light_panorama(hills.lights[0])->image.width, kTiny.sky);
 
   const LoadedScene stones = read_scene(write_stones(folder.path(), "heap", 9, 300));
   EXPECT_TRUE(stones.warnings.empty());

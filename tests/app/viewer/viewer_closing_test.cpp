@@ -51,7 +51,7 @@ Document inside_glass() {
   document.scene.materials.push_back(glass);
   document.scene.instances.push_back({"cube", CubeShape{}, mat4(1), {0}});
   LightDesc sky;
-  sky.type = LightType::constant;
+  sky.model = ConstantLightModel{};
   document.scene.lights.push_back(sky);
   document.scene.camera.position = vec3(0);
   document.scene.camera.target = vec3(1);

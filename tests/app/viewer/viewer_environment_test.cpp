@@ -42,14 +42,16 @@ TEST(ViewerEnvironmentUi, ADroppedPictureLightsTheScene) {
   EXPECT_EQ(hand.state().error, "");
   EXPECT_EQ(hand.state().scene_path, "") << "the scene stays";
   ASSERT_EQ(hand.document().scene.lights.size(), 1u);
-  const LightDesc first = hand.document().scene.lights[0];
-  EXPECT_EQ(first.type, LightType::environment);
+  auto environment = [&] {
+    return std::get<EnvironmentLightModel>(hand.document().scene.lights.at(0).model);
+  };
+  const EnvironmentLightModel first = environment();
   EXPECT_EQ(first.mapping, EnvironmentMapping::latlong);
   ASSERT_TRUE(first.panorama);
   EXPECT_EQ(first.panorama->sources, std::vector<std::string>{sky});
   hand.unfold("panel.lights", "light.rotation");
   hand.type_into("light.rotation", "90");
-  EXPECT_NEAR(hand.document().scene.lights[0].rotation, kPi / 2, 1e-6f);
+  EXPECT_NEAR(environment().rotation, kPi / 2, 1e-6f);
   hand.wait_for_picture();
   hand.reveal("light.file");
   hand.frame(3);
@@ -63,12 +65,11 @@ TEST(ViewerEnvironmentUi, ADroppedPictureLightsTheScene) {
   const std::string ball = write_sky(folder, "ball.pfm", 21, 21);
   hand.type(ball);
   hand.click("light.open");
-  hand.wait_until("the panorama is another", [&] {
-    return hand.document().scene.lights[0].panorama->sources != first.panorama->sources;
-  });
-  EXPECT_EQ(hand.document().scene.lights[0].mapping, EnvironmentMapping::angular);
+  hand.wait_until("the panorama is another",
+                  [&] { return environment().panorama->sources != first.panorama->sources; });
+  EXPECT_EQ(environment().mapping, EnvironmentMapping::angular);
   EXPECT_EQ(hand.document().scene.lights.size(), 1u);
-  EXPECT_NEAR(hand.document().scene.lights[0].rotation, kPi / 2, 1e-6f) << "as it was turned";
+  EXPECT_NEAR(environment().rotation, kPi / 2, 1e-6f) << "as it was turned";
 }
 
 TEST(ViewerEnvironmentUi, ADamagedPictureIsAnError) {

@@ -160,8 +160,8 @@ TEST(ViewerSelectionUi, APointLightMovesByItsHandles) {
   hand.key(Key::g);
   hand.frame(2);
   hand.drag(shown(hand, kSpark), shown(hand, kSpark) + vec2(50, 0));
-  EXPECT_GT(hand.document().scene.lights[0].position.x, kSpark.x + 0.05f);
-  EXPECT_NEAR(hand.document().scene.lights[0].position.y, kSpark.y, 1e-3f);
+  EXPECT_GT(light_position(hand.document().scene.lights[0])->x, kSpark.x + 0.05f);
+  EXPECT_NEAR(light_position(hand.document().scene.lights[0])->y, kSpark.y, 1e-3f);
   hand.frame(2);
   EXPECT_EQ(hand.state().undo_name, "spark: position");
 }

@@ -83,9 +83,9 @@ TEST(ViewerWatchUi, EveryKindOfFileThatASceneHasIsReadAgain) {
       {"a library that was missing", [&] { write_text(folder / "late.mtl", "newmtl b\nKd 0.3 0.3 0.3\n"); },
        [&] { return material("kite/b") == 0.3f; }},
       {"a panorama", [&] { write_sky(folder / "sky.exr", 2); },
-       [&] { return scene().lights[0].panorama->image.pixels[0].x == 2; }},
+       [&] { return light_panorama(scene().lights[0])->image.pixels[0].x == 2; }},
       {"a face of another", [&] { write_sky(folder / kFaces[4], 4); },
-       [&] { return scene().lights[1].panorama->image.pixels[16].x == 4; }}};
+       [&] { return light_panorama(scene().lights[1])->image.pixels[16].x == 4; }}};
   for (const Change& change : changes) {
     EXPECT_FALSE(change.is_seen()) << change.what;
     change.write();
@@ -101,19 +101,19 @@ TEST(ViewerWatchUi, APanoramaThatWasDroppedIsReplacedAndNoEditIsLost) {
   hand.send(FilesDropped{{folder / "sky.hdr"}});
   auto sky = [&]() -> const LightDesc* {
     for (const LightDesc& light : hand.document().scene.lights)
-      if (light.panorama) return &light;
+      if (light_panorama(light)) return &light;
     return nullptr;
   };
   hand.wait_until("it lights the scene", [&] { return sky() != nullptr; });
   hand.type_into("display.exposure", "1.5");
   write_sky(folder / "sky.hdr", 8);
-  hand.wait_until("it is read again", [&] { return sky()->panorama->image.pixels[0].x == 8; });
+  hand.wait_until("it is read again", [&] { return light_panorama(*sky())->image.pixels[0].x == 8; });
   EXPECT_EQ(hand.document().settings.display.exposure, 1.5f);
   EXPECT_FALSE(hand.find("question.reload"));
   EXPECT_EQ(hand.state().error, "");
   write_text(folder / "sky.hdr", "no picture");
   hand.wait_until("it is said", [&] { return !hand.state().error.empty(); });
-  EXPECT_EQ(sky()->panorama->image.pixels[0].x, 8) << "the old one stays";
+  EXPECT_EQ(light_panorama(*sky())->image.pixels[0].x, 8) << "the old one stays";
 }
 
 void wait_for_change(const FileWatch& watch) {

@@ -112,10 +112,11 @@ void write_cycles_scene(const Document& document, const std::string& folder) {
     }
   }
   for (const LightDesc& light : scene.lights) {
-    if (light.type != LightType::environment || light.panorama == nullptr || out.contains("panorama") ||
-        light.rotation != 0 || light.scale * light.color != vec3(1) || light.up != vec3(0, 1, 0))
+    const auto panorama = light_panorama(light);
+    if (panorama == nullptr || out.contains("panorama") || light.scale * light.color != vec3(1) ||
+        std::get<EnvironmentLightModel>(light.model) != EnvironmentLightModel{.panorama = panorama})
       throw unknown("light", "anything but one panorama as it is");
-    write_linear_image(light.panorama->image, folder + "/panorama.exr");
+    write_linear_image(panorama->image, folder + "/panorama.exr");
     out["panorama"] = "panorama.exr";
   }
   std::ofstream file(folder + "/scene.json");

@@ -116,8 +116,7 @@ VersusScene bumpy_ball(int size, int level) {
   auto panorama = std::make_shared<Panorama>();
   panorama->image = sky_with_sun();
   LightDesc sky;
-  sky.type = LightType::environment;
-  sky.panorama = std::move(panorama);
+  sky.model = EnvironmentLightModel{.panorama = std::move(panorama)};
   s.document.scene.lights.push_back(std::move(sky));
   s.camera({0, 0.5f, 4}, {0, 0.03f, 0}, 38);
   return {"Bumpy ball", std::move(description), std::move(s.document), 32};

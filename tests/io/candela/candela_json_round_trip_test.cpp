@@ -102,12 +102,13 @@ TEST_F(CandelaJsonRoundTrip, EveryRowOfEveryTableInIsolation) {
     randomise(row, document.scene.materials[1], random);
     check(document);
   }
-  for (const auto& row : light_fields()) {
-    Document document;
-    document.scene.lights.resize(2);
-    randomise(row, document.scene.lights[1], random);
-    check(document);
-  }
+  for (int type = 0; type < kLightTypeCount; ++type)
+    for (const auto& row : light_fields(type)) {
+      Document document;
+      document.scene.lights = {default_light(0), default_light(type)};
+      randomise(row, document.scene.lights[1], random);
+      check(document);
+    }
 }
 
 TEST_F(CandelaJsonRoundTrip, RandomDocuments) {
@@ -122,8 +123,8 @@ TEST_F(CandelaJsonRoundTrip, RandomDocuments) {
       if (i == 0) material.name.clear();
       for (const auto& row : material_fields()) randomise(row, material, random);
       document.scene.materials.push_back(material);
-      LightDesc light;
-      for (const auto& row : light_fields()) randomise(row, light, random);
+      LightDesc light = default_light(i % kLightTypeCount);
+      for (const auto& row : light_fields(light)) randomise(row, light, random);
       document.scene.lights.push_back(light);
     }
     std::normal_distribution<float> normal(0, 100);
@@ -234,17 +235,17 @@ TEST_F(CandelaJsonRoundTrip, Panoramas) {
   Document document = files.read("s.json").document;
   const auto& lights = document.scene.lights;
   ASSERT_EQ(lights.size(), 3u);
-  ASSERT_TRUE(lights[0].panorama);
-  EXPECT_EQ(lights[0].panorama, lights[1].panorama) << "one file is read once";
-  EXPECT_EQ(lights[0].panorama->image.pixels, (std::vector<vec3>{{1, 0, 0}, {0, 1, 0}}));
-  EXPECT_EQ(lights[2].mapping, EnvironmentMapping::faces);
-  EXPECT_EQ(lights[2].panorama->image.height, 6);
+  ASSERT_TRUE(light_panorama(lights[0]));
+  EXPECT_EQ(light_panorama(lights[0]), light_panorama(lights[1])) << "one file is read once";
+  EXPECT_EQ(light_panorama(lights[0])->image.pixels, (std::vector<vec3>{{1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(std::get<EnvironmentLightModel>(lights[2].model).mapping, EnvironmentMapping::faces);
+  EXPECT_EQ(light_panorama(lights[2])->image.height, 6);
   check(document);
   EXPECT_NE(test::read_text(files / "out.json").find("\"file\": \"sky/a.png\""), std::string::npos);
   auto made = std::make_shared<Panorama>();
   made->name = "made";
   made->image = {2, 1, {{0, 1e-30f, 0.1f}, {1e9f, 3, 1.0f / 3}}};
-  document.scene.lights[1].panorama = made;
+  std::get<EnvironmentLightModel>(document.scene.lights[1].model).panorama = made;
   check(document);
 }
 

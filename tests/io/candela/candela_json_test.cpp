@@ -58,9 +58,9 @@ TEST_F(CandelaJson, ReadsEveryPart) {
   EXPECT_TRUE(s.materials[1].two_sided_emission);
   ASSERT_EQ(s.textures.size(), 1u);
   EXPECT_EQ(s.textures[0]->srgb, (std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0}));
-  EXPECT_EQ(s.lights[0].type, LightType::constant);
+  EXPECT_EQ(light_type_name(s.lights[0]), "constant");
   EXPECT_EQ(s.lights[0].color, vec3(1, 2, 3));
-  EXPECT_EQ(s.lights[1].type, LightType::directional);
+  EXPECT_EQ(light_type_name(s.lights[1]), "directional");
   EXPECT_EQ(s.camera.vertical_fov, radians(90.0f));
   EXPECT_EQ(s.camera.aperture_radius, 0.5f);
   EXPECT_EQ(loaded.document.settings.path.max_depth, 8);

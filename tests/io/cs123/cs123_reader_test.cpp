@@ -184,12 +184,9 @@ TEST_F(Cs123Reader, Lights) {
   const auto& lights = loaded.document.scene.lights;
   ASSERT_EQ(lights.size(), 2u);
   EXPECT_EQ(lights[0].name, "light 3");
-  EXPECT_EQ(lights[0].type, LightType::directional);
-  EXPECT_EQ(lights[0].direction, vec3(0, -2, 0));
+  EXPECT_EQ(std::get<DirectionalLightModel>(lights[0].model).direction, vec3(0, -2, 0));
   EXPECT_EQ(lights[0].color, vec3(1, 2, 3));
-  EXPECT_EQ(lights[1].type, LightType::point);
-  EXPECT_EQ(lights[1].position, vec3(1, 2, 3));
-  EXPECT_EQ(lights[1].attenuation, vec3(1, 0, 0));
+  EXPECT_EQ(std::get<PointLightModel>(lights[1].model), (PointLightModel{{1, 2, 3}, {1, 0, 0}}));
   ASSERT_EQ(loaded.warnings.size(), 1u);
   EXPECT_TRUE(test::says(files.warnings(loaded)[0], "1 x s.xml:2:181: a light's function", {"not physical"}));
 }
@@ -205,14 +202,13 @@ TEST_F(Cs123Reader, SpotsAndAreaLights) {
   const SceneDesc& scene = loaded.document.scene;
   EXPECT_EQ(files.warnings(loaded), std::vector<std::string>{});
   ASSERT_EQ(scene.lights.size(), 1u);
-  const LightDesc& spot = scene.lights[0];
-  EXPECT_EQ(spot.type, LightType::spot);
+  const auto& spot = std::get<SpotLightModel>(scene.lights[0].model);
   EXPECT_EQ(spot.position, vec3(1, 2, 3));
   EXPECT_EQ(spot.direction, vec3(0, -1, 1));
   EXPECT_NEAR(degrees(spot.cutoff_angle), 30, 1e-5f);
   EXPECT_NEAR(degrees(spot.beam_width), 20, 1e-5f);
   EXPECT_EQ(spot.attenuation, vec3(0, 0, 2));
-  EXPECT_EQ(spot.color, vec3(4, 5, 6));
+  EXPECT_EQ(scene.lights[0].color, vec3(4, 5, 6));
   ASSERT_EQ(scene.instances.size(), 2u);
   const Instance& area = scene.instances[0];
   EXPECT_EQ(area.name, "light 1");

@@ -102,13 +102,13 @@ TEST_F(PanoramaReader, BecomesTheSky) {
   SceneDesc scene;
   EXPECT_EQ(set_environment(scene, sky), 0u);
   ASSERT_EQ(scene.lights.size(), 1u);
-  EXPECT_EQ(scene.lights[0].panorama, sky);
-  EXPECT_EQ(scene.lights[0].mapping, angular);
+  EXPECT_EQ(light_panorama(scene.lights[0]), sky);
+  EXPECT_EQ(std::get<EnvironmentLightModel>(scene.lights[0].model).mapping, angular);
   scene.lights.insert(scene.lights.begin(), LightDesc{});
-  scene.lights[1].rotation = 2;
+  std::get<EnvironmentLightModel>(scene.lights[1].model).rotation = 2;
   EXPECT_EQ(set_environment(scene, sky), 1u) << "the environment that is there";
-  EXPECT_EQ(scene.lights[1].rotation, 2);
-  scene.lights[1].type = LightType::constant;
+  EXPECT_EQ(std::get<EnvironmentLightModel>(scene.lights[1].model).rotation, 2);
+  scene.lights[1].model = ConstantLightModel{};
   scene.lights[1].color = {0.5f, 0.6f, 1};
   EXPECT_EQ(set_environment(scene, sky), 1u) << "or a constant light gives its place";
   EXPECT_EQ(scene.lights[1].color, vec3(1));

@@ -287,7 +287,7 @@ TEST_F(ObjReader, AloneItIsFramedAndLit) {
   for (vec3 p : mesh_of(loaded).positions) // within the vertical angle, all around
     EXPECT_LT(std::acos(glm::dot(glm::normalize(p - c.position), view)), 0.5f * c.vertical_fov);
   ASSERT_EQ(loaded.document.scene.lights.size(), 1u);
-  EXPECT_EQ(loaded.document.scene.lights[0].type, LightType::constant);
+  EXPECT_EQ(light_type_name(loaded.document.scene.lights[0]), "constant");
 }
 
 TEST_F(ObjReader, RealMeshes) {

@@ -109,7 +109,7 @@ TEST(AbsorptionStatistical, StrategiesAgreeInsideOfGlass) {
     s.rectangle({0, -1, 0}, {0, 0, 1}, {1, 0, 0}, s.diffuse(vec3(0.8f)));
     s.rectangle({0, 1, 0}, {0.5f, 0, 0}, {0, 0, 0.5f}, s.diffuse(vec3(0), vec3(5)));
     LightDesc point;
-    point.position = {0.5f, 0.3f, 0};
+    point.model = PointLightModel{.position = {0.5f, 0.3f, 0}};
     point.color = vec3(1);
     s.document.scene.lights.push_back(point);
     s.camera({0, 0, 2}, {0, -1, 0}, 25);
@@ -144,7 +144,7 @@ TEST(AbsorptionRender, APointLightInGlassFades) {
   s.sphere({0, 0, 0}, 9, glass(s, kSigma));
   s.rectangle({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, s.diffuse(vec3(1)));
   LightDesc point;
-  point.position = {0, 0, 2};
+  point.model = PointLightModel{.position = {0, 0, 2}};
   point.color = vec3(1);
   s.document.scene.lights.push_back(point);
   s.document.settings.path.max_depth = 2;

@@ -244,9 +244,7 @@ TEST(EnvironmentMap, WhatIsDarkerThanTheMeanIsLeftToChance) {
 
 LightDesc environment(std::shared_ptr<const Panorama> panorama, EnvironmentMapping mapping) {
   LightDesc light;
-  light.type = LightType::environment;
-  light.panorama = std::move(panorama);
-  light.mapping = mapping;
+  light.model = EnvironmentLightModel{.mapping = mapping, .panorama = std::move(panorama)};
   return light;
 }
 
@@ -264,8 +262,9 @@ TEST(EnvironmentLight, RotationTurnsThePictureByExactlyThat) {
   for (float angle : {0.0f, 30.0f, 90.0f, -200.0f})
     for (vec3 up : {vec3(0, 1, 0), vec3(0, 0, 2), vec3(0, -1, 0), vec3(1, 1, 1)}) {
       LightDesc turned = light;
-      turned.rotation = radians(angle);
-      turned.up = up;
+      auto& model = std::get<EnvironmentLightModel>(turned.model);
+      model.rotation = radians(angle);
+      model.up = up;
       mat3 around = mat3(glm::rotate(mat4(1), radians(angle), vec3(0, 1, 0)));
       vec3 n = glm::normalize(up);
       for (std::uint64_t i = 0; i < 50; ++i) {
@@ -296,11 +295,11 @@ TEST(EnvironmentLight, WhatIsMadeOfAPictureIsKeptThroughEdits) {
   document.scene.lights.push_back(
       environment(picture(kCases[0], [](vec3 d) { return vec3(smooth(d)); }), latlong));
   auto before = RenderScene::build(document);
-  document.scene.lights[0].rotation = 1;
+  std::get<EnvironmentLightModel>(document.scene.lights[0].model).rotation = 1;
   auto after = RenderScene::build(document, before.get());
   auto map_of = [](const RenderScene& s) { return std::get<EnvironmentLight>(s.lights()[0]).map; };
   EXPECT_EQ(map_of(*before), map_of(*after));
-  document.scene.lights[0].mapping = angular;
+  std::get<EnvironmentLightModel>(document.scene.lights[0].model).mapping = angular;
   EXPECT_NE(map_of(*RenderScene::build(document, after.get())), map_of(*after));
 }
 
@@ -366,8 +365,7 @@ TEST(EnvironmentRender, OneBrightTexelIsADirectionalLight) {
         irradiance += static_cast<double>(l.x * d.y) * kStep * kStep / (r2 * std::sqrt(r2));
       }
     LightDesc sun;
-    sun.type = LightType::directional;
-    sun.direction = -towards;
+    sun.model = DirectionalLightModel{-towards};
     sun.color = vec3(static_cast<float>(irradiance / static_cast<double>(towards.y)));
     double exact = plate(sun, LightSampling::mis, 1, 1).mean();
     EXPECT_NEAR(exact, 0.5 * irradiance / kPiD, 1e-3 * exact);

@@ -24,7 +24,7 @@ std::vector<Case> cases() {
   };
   std::vector<Case> all;
   auto add = [&](const char* name) -> SceneMaker& {
-    return all.emplace_back(name, SceneMaker(1, 1, 1)).scene;
+    return all.emplace_back(Case{name, SceneMaker(1, 1, 1)}).scene;
   };
   lamp(add("a lamp across the horizon"), {2, 0.2f, 0}, 1);
   lamp(add("a lamp behind"), {0.5f, -2, 0}, 0.8f);

@@ -248,12 +248,15 @@ Document lamps() {
   }
   for (int i = 0; i < 6; ++i) {
     LightDesc l;
-    l.type = i < 3 ? LightType::point : LightType::spot;
-    l.position = {random(-2.5f, 2.5f), random(0.5f, 2), random(-2.5f, 2.5f)};
-    l.direction = random.direction();
-    l.beam_width = 0.3f, l.cutoff_angle = random(0.5f, 2.5f);
+    const vec3 position{random(-2.5f, 2.5f), random(0.5f, 2), random(-2.5f, 2.5f)};
+    const vec3 direction = random.direction();
+    const float cutoff = random(0.5f, 2.5f);
+    const vec3 attenuation = i % 3 == 0 ? vec3(0.5f, 0, 1) : vec3(0, 0, 1);
+    if (i < 3)
+      l.model = PointLightModel{position, attenuation};
+    else
+      l.model = SpotLightModel{position, direction, cutoff, 0.3f, attenuation};
     l.color = vec3(0.3f);
-    if (i % 3 == 0) l.attenuation = {0.5f, 0, 1};
     s.document.scene.lights.push_back(l);
   }
   s.camera({0, 1.5f, 2.7f}, {0, 0.8f, 0}, 70);
