@@ -25,7 +25,7 @@ bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
   for (int depth = 1; depth <= last_depth_ && !paths_.empty(); ++depth) {
     intersect(depth, stop);
     if (stop.asked()) return false;
-    sample_media(depth, stop);
+    sample_media(stop);
     if (shows_depth(settings_, depth)) {
       add_environment(depth);
       add_emission(depth);
@@ -46,31 +46,35 @@ bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
 /// Rays between two polls of whether to stop: single ones may take milliseconds.
 constexpr std::size_t kRaysPerPoll = 16;
 
-/// hits_[i] becomes the closest hit of paths_[i], its t infinite where there is none.
+/// hits_[i] becomes the closest hit of paths_[i], its t infinite where there is none; samplers go to the
+/// bounce.
 void PathTracer::intersect(int depth, StopPoll& stop) {
   const Accel& accel = scene_.geometry().accel();
   hits_.resize(paths_.size());
   counts_.closest += paths_.size();
   if (depth == 1) { // camera rays are coherent: faster together
     rays_.clear();
-    for (const Path& path : paths_) rays_.push_back(&path.ray);
+    for (Path& path : paths_) {
+      path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
+      rays_.push_back(&path.ray);
+    }
     accel.intersect(rays_, hits_);
     return;
   }
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     if (i % kRaysPerPoll == 0 && stop.asked()) return;
-    if (!accel.intersect(paths_[i].ray, hits_[i])) hits_[i].t = kInfinity;
+    Path& path = paths_[i];
+    path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
+    if (!accel.intersect(path.ray, hits_[i])) hits_[i].t = kInfinity;
   }
 }
 
 /// Divides the paths into those that arrive at a surface and those that escape.
-void PathTracer::sample_media(int depth, StopPoll& stop) {
+void PathTracer::sample_media(StopPoll& stop) {
   arrived_.clear();
   escaped_.clear();
   const bool passes = scene_.has_transparency() || scene_.has_media();
   for (std::size_t i = 0; i < paths_.size(); ++i) {
-    Path& path = paths_[i];
-    path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
     Hit& hit = hits_[arrived_.size()]; // at i or before
     if (&hit != &hits_[i]) hit = hits_[i];
     bool met = hit.t < kInfinity;
@@ -79,9 +83,9 @@ void PathTracer::sample_media(int depth, StopPoll& stop) {
       met = pass_media(i, met, hit);
     }
     if (met)
-      arrived_.push_back(&path);
+      arrived_.push_back(&paths_[i]);
     else
-      escaped_.push_back(&path);
+      escaped_.push_back(&paths_[i]);
   }
 }
 

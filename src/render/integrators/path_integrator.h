@@ -81,7 +81,7 @@ private:
 
   // The stages, in their order.
   void intersect(int depth, StopPoll& stop);
-  void sample_media(int depth, StopPoll& stop);
+  void sample_media(StopPoll& stop);
   void add_environment(int depth);
   void add_emission(int depth);
   void scatter(std::size_t begin, std::size_t count, int depth, StopPoll& stop);
