@@ -71,22 +71,25 @@ void PathTracer::intersect(int depth, StopPoll& stop) {
 
 /// Divides the paths into those that arrive at a surface and those that escape.
 void PathTracer::sample_media(StopPoll& stop) {
-  arrived_.clear();
-  escaped_.clear();
+  const std::size_t count = paths_.size();
   const bool passes = scene_.has_transparency() || scene_.has_media();
-  for (std::size_t i = 0; i < paths_.size(); ++i) {
-    Hit& hit = hits_[arrived_.size()]; // at i or before
-    if (&hit != &hits_[i]) hit = hits_[i];
-    bool met = hit.t < kInfinity;
+  arrived_.resize(count);
+  escaped_.resize(count);
+  std::size_t arrived = 0, escaped = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    bool met = hits_[i].t < kInfinity;
     if (passes) {
-      if (i % kRaysPerPoll == 0 && stop.asked()) return;
-      met = pass_media(i, met, hit);
+      if (i % kRaysPerPoll == 0 && stop.asked()) break;
+      met = pass_media(i, met, hits_[i]);
     }
-    if (met)
-      arrived_.push_back(&paths_[i]);
-    else
-      escaped_.push_back(&paths_[i]);
+    // Which of both cannot be predicted, so there is no branch.
+    hits_[arrived] = hits_[i];
+    arrived_[arrived] = escaped_[escaped] = &paths_[i];
+    arrived += met ? 1 : 0;
+    escaped += met ? 0 : 1;
   }
+  arrived_.resize(arrived);
+  escaped_.resize(escaped);
 }
 
 /// Whether the ray of paths_[index] ends at a surface, given its closest hit, and what is left of its light
@@ -238,7 +241,7 @@ bool PathTracer::sample_bsdfs(std::uint32_t branch, int depth) {
     if (branch >= branches) continue;
     const Sampler& own = vertex.path->sampler;
     const Sampler* sampler = branches > 1 ? &branched_.emplace_back(own.branch(branch, branches)) : &own;
-    directions_[count] = {&vertex, sampler, 0, false};
+    directions_[count] = {&vertex, sampler, vertex.lane, 0, false};
     draws[count++] = {sampler, 0};
   }
   direction_count_ = 0;
@@ -254,7 +257,7 @@ bool PathTracer::sample_bsdfs(std::uint32_t branch, int depth) {
   for (std::size_t k = 0; k < count; ++k) {
     SampledDirection direction = directions_[k];
     const ScatteringVertex& vertex = *direction.vertex;
-    const std::uint32_t i = vertex.lane;
+    const std::uint32_t i = direction.lane;
     auto s = sample_direction(vertices_.bsdf(i), vertices_.wo_local[i], {disc[k], lobe_u[k]},
                               settings_.direction_sampling);
     if (!s) continue;
@@ -276,12 +279,11 @@ bool PathTracer::sample_bsdfs(std::uint32_t branch, int depth) {
 /// Finds the directions that are to be folded to the right side of their surface, see folds_directions().
 void PathTracer::fold_directions() {
   for (SampledDirection& direction : std::span(directions_.data(), direction_count_)) {
-    const ScatteringVertex& vertex = *direction.vertex;
-    const std::uint32_t i = vertex.lane;
+    const std::uint32_t i = direction.lane;
     if (!vertices_.folds(i)) continue;
     continuation_.folds[i] = 1;
     if (!direction.delta)
-      direction.bsdf_pdf += static_cast<float>(vertex.branches) *
+      direction.bsdf_pdf += static_cast<float>(direction.vertex->branches) *
                             vertices_.folded_pdf(i, continuation_.wi_local[i], settings_.direction_sampling);
   }
 }
@@ -293,13 +295,13 @@ void PathTracer::continue_paths() {
   std::size_t count = 0;
   for (std::uint32_t n = 0; n < direction_count_; ++n) {
     survivors[count] = n;
-    count += static_cast<std::size_t>(continuation_.survives[directions_[n].vertex->lane]);
+    count += static_cast<std::size_t>(continuation_.survives[directions_[n].lane]);
   }
   const bool has_media = scene_.has_media();
   for (std::uint32_t n : std::span(survivors.data(), count)) {
     const SampledDirection& direction = directions_[n];
     const Path& from = *direction.vertex->path;
-    const std::uint32_t i = direction.vertex->lane;
+    const std::uint32_t i = direction.lane;
     Path& path = next_paths_.emplace_back(*direction.sampler);
     path.ray.origin = continuation_.origin[i];
     path.ray.direction = continuation_.direction[i];

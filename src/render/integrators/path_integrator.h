@@ -75,6 +75,7 @@ private:
   struct SampledDirection {
     const ScatteringVertex* vertex;
     const Sampler* sampler; ///< of the branch
+    std::uint32_t lane;     ///< of the vertex
     float bsdf_pdf;         ///< as of Path
     bool delta;
   };
