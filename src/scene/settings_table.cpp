@@ -59,7 +59,7 @@ const Field<Document> kRows[] = {
       kImage, kIntegrators},
      AT(settings.integrator)},
     {{"path.light_sampling", FieldType::choice, 0, 0, "",
-      "How direct light is found: by chance (bsdf), by aiming at lights (nee), or both, weighted (mis)",
+      "How direct light is found: by BSDF sampling (bsdf), by light sampling (nee), or by both, weighted (mis)",
       kImage, kLightSampling},
      AT(settings.path.light_sampling)},
     {{"path.mis_heuristic", FieldType::choice, 0, 0, "", "Weights of mis", kImage, kHeuristics},
@@ -67,8 +67,7 @@ const Field<Document> kRows[] = {
     {{"path.light_samples", FieldType::integer, 1, 64, "", "Shadow rays at every vertex, for nee and mis"},
      AT(settings.path.light_samples)},
     {{"path.light_choice", FieldType::choice, 0, 0, "",
-      "Which of several lights a shadow ray goes to: by their power, or by what they may contribute to the "
-      "point",
+      "How one of several lights is sampled: by power, or by what it may contribute to the point",
       Invalidates::scene, kLightChoices},
      AT(settings.path.light_choice)},
     {{"path.direction_sampling", FieldType::choice, 0, 0, "",
@@ -80,9 +79,8 @@ const Field<Document> kRows[] = {
       "path.rr = off"},
      AT(settings.path.max_depth)},
     {{"path.rr", FieldType::choice, 0, 0, "",
-      "Russian roulette: off, by the path's throughput, or with a fixed chance; from 64 segments on at most "
-      "0.99 of the "
-      "paths go on, whatever they carry, so that all end",
+      "Russian roulette: off, by the path's throughput, or with a fixed probability; from 64 segments on a "
+      "path continues with 0.99 at most, so that all end",
       kImage, kRoulette},
      AT(settings.path.rr)},
     {{"path.rr_depth", FieldType::integer, 0, 1000000, "segments", "Segments before Russian roulette starts"},
@@ -90,7 +88,7 @@ const Field<Document> kRows[] = {
     {{"path.rr_threshold", FieldType::real, 0.001, 1000, "",
       "Throughput below which a path may end, with path.rr = throughput"},
      AT(settings.path.rr_threshold)},
-    {{"path.rr_probability", FieldType::real, 0.01, 1, "", "Chance to go on, with path.rr = fixed"},
+    {{"path.rr_probability", FieldType::real, 0.01, 1, "", "Probability to continue, with path.rr = fixed"},
      AT(settings.path.rr_probability)},
     {{"path.component", FieldType::choice, 0, 0, "", "Which part of the light is shown", kImage, kComponents},
      AT(settings.path.component)},

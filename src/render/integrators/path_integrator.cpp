@@ -25,7 +25,7 @@ bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
   for (int depth = 1; depth <= last_depth_ && !paths_.empty(); ++depth) {
     intersect(depth, stop);
     if (stop.asked()) return false;
-    sample_media(depth, stop);
+    sample_media(stop);
     if (shows_depth(settings_, depth)) {
       add_environment(depth);
       add_emission(depth);
@@ -46,43 +46,50 @@ bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
 /// Rays between two polls of whether to stop: single ones may take milliseconds.
 constexpr std::size_t kRaysPerPoll = 16;
 
-/// hits_[i] becomes the closest hit of paths_[i], its t infinite where there is none.
+/// hits_[i] becomes the closest hit of paths_[i], its t infinite where there is none; samplers go to the
+/// bounce.
 void PathTracer::intersect(int depth, StopPoll& stop) {
   const Accel& accel = scene_.geometry().accel();
   hits_.resize(paths_.size());
   counts_.closest += paths_.size();
   if (depth == 1) { // camera rays are coherent: faster together
     rays_.clear();
-    for (const Path& path : paths_) rays_.push_back(&path.ray);
+    for (Path& path : paths_) {
+      path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
+      rays_.push_back(&path.ray);
+    }
     accel.intersect(rays_, hits_);
     return;
   }
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     if (i % kRaysPerPoll == 0 && stop.asked()) return;
-    if (!accel.intersect(paths_[i].ray, hits_[i])) hits_[i].t = kInfinity;
+    Path& path = paths_[i];
+    path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
+    if (!accel.intersect(path.ray, hits_[i])) hits_[i].t = kInfinity;
   }
 }
 
 /// Divides the paths into those that arrive at a surface and those that escape.
-void PathTracer::sample_media(int depth, StopPoll& stop) {
-  arrived_.clear();
-  escaped_.clear();
+void PathTracer::sample_media(StopPoll& stop) {
+  const std::size_t count = paths_.size();
   const bool passes = scene_.has_transparency() || scene_.has_media();
-  for (std::size_t i = 0; i < paths_.size(); ++i) {
-    Path& path = paths_[i];
-    path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
-    Hit& hit = hits_[arrived_.size()]; // at i or before
-    if (&hit != &hits_[i]) hit = hits_[i];
-    bool met = hit.t < kInfinity;
+  arrived_.resize(count);
+  escaped_.resize(count);
+  std::size_t arrived = 0, escaped = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    bool met = hits_[i].t < kInfinity;
     if (passes) {
-      if (i % kRaysPerPoll == 0 && stop.asked()) return;
-      met = pass_media(i, met, hit);
+      if (i % kRaysPerPoll == 0 && stop.asked()) break;
+      met = pass_media(i, met, hits_[i]);
     }
-    if (met)
-      arrived_.push_back(&path);
-    else
-      escaped_.push_back(&path);
+    // Which of both cannot be predicted, so there is no branch.
+    hits_[arrived] = hits_[i];
+    arrived_[arrived] = escaped_[escaped] = &paths_[i];
+    arrived += met ? 1 : 0;
+    escaped += met ? 0 : 1;
   }
+  arrived_.resize(arrived);
+  escaped_.resize(escaped);
 }
 
 /// Whether the ray of paths_[index] ends at a surface, given its closest hit, and what is left of its light
@@ -236,7 +243,7 @@ bool PathTracer::sample_bsdfs(std::uint32_t branch, int depth) {
     if (branch >= branches) continue;
     const Sampler& own = vertex.path->sampler;
     const Sampler* sampler = branches > 1 ? &branched_.emplace_back(own.branch(branch, branches)) : &own;
-    directions_[count] = {&vertex, sampler, 0, false};
+    directions_[count] = {&vertex, sampler, vertex.lane, 0, false};
     draws[count++] = {sampler, 0};
   }
   direction_count_ = 0;
@@ -252,7 +259,7 @@ bool PathTracer::sample_bsdfs(std::uint32_t branch, int depth) {
   for (std::size_t k = 0; k < count; ++k) {
     SampledDirection direction = directions_[k];
     const ScatteringVertex& vertex = *direction.vertex;
-    const std::uint32_t i = vertex.lane;
+    const std::uint32_t i = direction.lane;
     auto s = sample_direction(vertices_.bsdf(i), vertices_.wo_local[i], {disc[k], lobe_u[k]},
                               settings_.direction_sampling);
     if (!s) continue;
@@ -274,12 +281,11 @@ bool PathTracer::sample_bsdfs(std::uint32_t branch, int depth) {
 /// Finds the directions that are to be folded to the right side of their surface, see folds_directions().
 void PathTracer::fold_directions() {
   for (SampledDirection& direction : std::span(directions_.data(), direction_count_)) {
-    const ScatteringVertex& vertex = *direction.vertex;
-    const std::uint32_t i = vertex.lane;
+    const std::uint32_t i = direction.lane;
     if (!vertices_.folds(i)) continue;
     continuation_.folds[i] = 1;
     if (!direction.delta)
-      direction.bsdf_pdf += static_cast<float>(vertex.branches) *
+      direction.bsdf_pdf += static_cast<float>(direction.vertex->branches) *
                             vertices_.folded_pdf(i, continuation_.wi_local[i], settings_.direction_sampling);
   }
 }
@@ -291,13 +297,13 @@ void PathTracer::continue_paths() {
   std::size_t count = 0;
   for (std::uint32_t n = 0; n < direction_count_; ++n) {
     survivors[count] = n;
-    count += static_cast<std::size_t>(continuation_.survives[directions_[n].vertex->lane]);
+    count += static_cast<std::size_t>(continuation_.survives[directions_[n].lane]);
   }
   const bool has_media = scene_.has_media();
   for (std::uint32_t n : std::span(survivors.data(), count)) {
     const SampledDirection& direction = directions_[n];
     const Path& from = *direction.vertex->path;
-    const std::uint32_t i = direction.vertex->lane;
+    const std::uint32_t i = direction.lane;
     Path& path = next_paths_.emplace_back(*direction.sampler);
     path.ray.origin = continuation_.origin[i];
     path.ray.direction = continuation_.direction[i];

@@ -75,13 +75,14 @@ private:
   struct SampledDirection {
     const ScatteringVertex* vertex;
     const Sampler* sampler; ///< of the branch
+    std::uint32_t lane;     ///< of the vertex
     float bsdf_pdf;         ///< as of Path
     bool delta;
   };
 
   // The stages, in their order.
   void intersect(int depth, StopPoll& stop);
-  void sample_media(int depth, StopPoll& stop);
+  void sample_media(StopPoll& stop);
   void add_environment(int depth);
   void add_emission(int depth);
   void scatter(std::size_t begin, std::size_t count, int depth, StopPoll& stop);

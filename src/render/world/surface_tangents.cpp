@@ -16,11 +16,12 @@ SurfaceTangents without_uv(vec3 normal) {
 /// Of a surface p(a, b) whose coordinates are uv(a, b), from the derivatives of both.
 SurfaceTangents solve(vec3 dpda, vec3 dpdb, vec2 duv_da, vec2 duv_db, vec3 normal) {
   const float determinant = duv_da.x * duv_db.y - duv_da.y * duv_db.x;
+  // Also where the coordinates fold onto a line but for rounding.
+  constexpr float kRounding = 1e-6f;
+  if (!(std::abs(determinant) > kRounding * glm::length(duv_da) * glm::length(duv_db)))
+    return without_uv(normal);
   const vec3 dpdu = (duv_db.y * dpda - duv_da.y * dpdb) / determinant,
              dpdv = (duv_da.x * dpdb - duv_db.x * dpda) / determinant;
-  // Also where the coordinates fold onto a line, so that the quotients are none.
-  if (!is_finite(dpdu) || !is_finite(dpdv) || !(length_squared(glm::cross(dpdu, dpdv)) > 0))
-    return without_uv(normal);
   return {dpdu, dpdv, true};
 }
 

@@ -333,8 +333,7 @@ TEST(EnvironmentRender, UnderASunAllStrategiesMeanTheSame) {
   LightDesc light = environment(picture(finer(kCases[0], 4), sky), latlong);
   RunningStatistics nee = plate(light, LightSampling::nee, 1024, 201);
   for (LightSampling how : {LightSampling::mis, LightSampling::bsdf})
-    EXPECT_GT(z_test(plate(light, how, 1024, 202 + static_cast<std::uint64_t>(how)), nee),
-              sidak_threshold(2))
+    EXPECT_GT(z_test(plate(light, how, 1024, 202 + static_cast<std::uint64_t>(how)), nee), sidak_threshold(2))
         << seed_note();
 }
 

@@ -80,6 +80,11 @@ LightSelection select_all(const std::vector<Light>& lights, LightChoiceBy how = 
 LightSamplingContext random_context(Random& random, const std::vector<Light>& lights) {
   LightSamplingContext ctx{random.point(6), random.direction()};
   ctx.mis_with_bsdf = random.coin();
+  switch (static_cast<int>(random(0, 3))) {
+  case 0: break;
+  case 1: ctx.domain = ScatteringDomain::sphere; break;
+  default: ctx = LightSamplingContext::in_volume(ctx.position);
+  }
   if (random.coin()) {
     ctx.lobe = {random.coin() ? 0.0f : random(), random(0.1f, 1000), random(0, 1000)};
     ctx.lobe_axis = random.direction();
@@ -91,10 +96,10 @@ LightSamplingContext random_context(Random& random, const std::vector<Light>& li
   return ctx;
 }
 
-/// The irradiance of a sample, not weighted by any density.
+/// What a sample contributes under an even BSDF or phase function, not weighted by any density.
 float contribution(const Light& light, const LightSamplingContext& ctx, vec2 u) {
   auto s = sample_light(light, ctx, u);
-  return s ? s->radiance.x * glm::dot(s->direction, ctx.normal) : 0;
+  return s && ctx.accepts(s->direction) ? s->radiance.x * ctx.cosine_factor(s->direction) : 0;
 }
 
 TEST(LightTree, WhateverSendsLightIsChosen) {
@@ -181,6 +186,20 @@ TEST(LightTree, FewLightsThatAreSmallAreChosenByWhatTheySend) {
                          0.1 / std::sqrt(2.0),
                          0,
                          0};
+  double sum = 0;
+  for (double e : sent) sum += e;
+  for (std::uint32_t i = 0; i < lights.size(); ++i)
+    EXPECT_NEAR(static_cast<double>(selection.pmf(ctx, i)), sent[i] / sum, 0.01) << i;
+}
+
+TEST(LightTree, APointInAMediumChoosesByWhatArrivesFromAllAround) {
+  const auto ctx = LightSamplingContext::in_volume({0, 0, 0});
+  std::vector<Light> lights{PointLight{{0, -5, 0}, vec3(5)},
+                            DiscLight{{-6, 8, 0}, glm::normalize(vec3(6, -8, 0)), 0.05f, vec3(900), false},
+                            DirectionalLight{glm::normalize(vec3(0, 1, 1)), vec3(0.1f)},
+                            ConstantLight{vec3(0.02f)}};
+  LightSelection selection = select_all(lights);
+  const double sent[] = {5.0 / 25, 900 * std::numbers::pi * 0.0025 / 100, 0.1, 4 * std::numbers::pi * 0.02};
   double sum = 0;
   for (double e : sent) sum += e;
   for (std::uint32_t i = 0; i < lights.size(); ++i)
