@@ -4,6 +4,7 @@
 #include "io/images/image_file.h"
 #include "io/scene_reader.h"
 #include "session/offline_render.h"
+#include "support/materials.h"
 #include "support/scratch_folder.h"
 
 #include <fmt/format.h>
@@ -13,6 +14,8 @@
 
 namespace candela {
 namespace {
+
+using test::color;
 
 namespace fs = std::filesystem;
 
@@ -72,7 +75,7 @@ TEST(PictureStateRender, ScreenshotsAreMadeAgain) {
   session.submit(document);
   wait();
   document.scene.camera.position.x += 0.1f;
-  document.scene.materials[0].diffuse = {0.2f, 0.3f, 0.4f};
+  color(document.scene.materials[0], "diffuse") = {0.2f, 0.3f, 0.4f};
   document.settings.path.max_depth = 4;
   session.submit(document);
   wait();

@@ -1,10 +1,14 @@
 // Inputs after what people report of programs of this kind.
 
-#include "io/images/texture_reader.h"
+#include "io/images/texels_reader.h"
 #include "io/scene_files.h"
+#include "support/materials.h"
 
 namespace candela {
 namespace {
+
+using test::color;
+using test::use_of;
 
 using test::mesh_of;
 
@@ -26,12 +30,12 @@ TEST_F(FieldCases, EveryModelIsRead) {
   auto material = [&](const char* name) {
     return read(std::string(name) + "/q.obj").document.scene.materials.at(0);
   };
-  EXPECT_EQ(material("mtl_unix_abs").diffuse_texture, 0);
-  EXPECT_EQ(material("mtl_opt_2d").diffuse_uv, (UvTransform{vec2(2), vec2(0.5f)}));
-  EXPECT_EQ(material("mtl_s_o").diffuse_uv, (UvTransform{vec2(2), vec2(0.5f, 0)}));
-  EXPECT_EQ(material("mtl_ns0").diffuse, vec3(0.6f));
-  EXPECT_EQ(material("mtl_cont").diffuse, vec3(1, 0, 0));
-  EXPECT_EQ(material("mtl_lib_missing_same").diffuse, vec3(1, 0, 0));
+  EXPECT_EQ(use_of(material("mtl_unix_abs")).texture, 0);
+  EXPECT_EQ(use_of(material("mtl_opt_2d")).uv, (UvTransform{vec2(2), vec2(0.5f)}));
+  EXPECT_EQ(use_of(material("mtl_s_o")).uv, (UvTransform{vec2(2), vec2(0.5f, 0)}));
+  EXPECT_EQ(color(material("mtl_ns0"), "diffuse"), vec3(0.6f));
+  EXPECT_EQ(color(material("mtl_cont"), "diffuse"), vec3(1, 0, 0));
+  EXPECT_EQ(color(material("mtl_lib_missing_same"), "diffuse"), vec3(1, 0, 0));
 }
 
 TEST_F(FieldCases, PicturesAndJobs) {

@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "io/picture_state.h"
+#include "support/materials.h"
 #include "support/scenes.h"
 #include "support/scratch_folder.h"
 
@@ -9,6 +10,8 @@
 
 namespace candela {
 namespace {
+
+using test::color;
 
 namespace fs = std::filesystem;
 
@@ -44,7 +47,7 @@ protected:
 TEST_F(PictureStateTest, PngAndExrHoldTheWholeDocument) {
   Document document = test::cornell_flush(20, 10, 7, true).document;
   document.scene.camera.position.x += 0.123456f;
-  document.scene.materials[0].diffuse = {0.1f, 1 / 3.0f, 0.7f};
+  color(document.scene.materials[0], "diffuse") = {0.1f, 1 / 3.0f, 0.7f};
   document.settings.path.max_depth = 5;
   document.settings.display.exposure = 0.7f;
   document.settings.sampler.seed = 12345;

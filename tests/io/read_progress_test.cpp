@@ -2,7 +2,7 @@
 
 #include "io/images/image_codec.h"
 #include "io/images/panorama_reader.h"
-#include "io/images/texture_reader.h"
+#include "io/images/texels_reader.h"
 #include "io/picture_state.h"
 #include "io/scene_files.h"
 
@@ -67,7 +67,7 @@ TEST_F(ReadProgressTest, CancelledNoPictureIsDecoded) {
     WarningList go, stop(cancelled().progress);
     EXPECT_NO_THROW(read_panorama(std::span(&path, 1), go)) << name;
     EXPECT_THROW(read_panorama(std::span(&path, 1), stop), Cancelled) << name;
-    EXPECT_THROW(read_texture(path, stop), Cancelled) << name;
+    EXPECT_THROW(read_texels(path, stop), Cancelled) << name;
   }
 }
 
@@ -149,7 +149,7 @@ TEST_F(ReadProgressTest, FilesThatAreNamedCountBeforeTheyAreRead) {
   const auto size = [&](const char* name) {
     return static_cast<double>(std::filesystem::file_size(files / name));
   };
-  read_texture(files / "t.png", list);
+  read_texels(files / "t.png", list);
   EXPECT_DOUBLE_EQ(watched->share(), size("t.png") / (size("t.png") + size("sky.hdr")));
   const std::string sky = files / "sky.hdr";
   read_panorama(std::span(&sky, 1), list);

@@ -30,7 +30,7 @@ TEST(SceneExport, CopiesPicturesFromElsewhereAndWritesMeshesInline) {
   for (auto* scene : {&document.scene, &again.document.scene}) { // where a picture came from may differ
     for (auto& texture : scene->textures) {
       auto nameless = std::make_shared<Texture>(*texture);
-      nameless->name.clear(), nameless->source.clear();
+      nameless->name.clear(), std::get<ImageTexture>(nameless->model).source.clear();
       texture = nameless;
     }
     auto nameless = std::make_shared<Panorama>(*light_panorama(scene->lights[0]));

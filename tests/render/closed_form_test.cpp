@@ -266,7 +266,7 @@ TEST(ClosedFormRender, HalfTransparentPlanesPassPowersOfTheRest) {
     SceneMaker s(32, 16, 256);
     s.constant_light({1, 2, 3});
     Material m;
-    m.diffuse = vec3(0);
+    color(m, "diffuse") = vec3(0);
     m.opacity = 0.3f;
     int mat = s.material(m);
     for (int i = 0; i < planes; ++i) s.rectangle({0, 0, -static_cast<float>(i)}, {9, 0, 0}, {0, 9, 0}, mat);
@@ -288,7 +288,7 @@ TEST(ClosedFormRender, ShadowRaysAreWeakenedByTransparentPlanes) {
       SceneMaker s(32, 16, sun ? 4 : 256);
       s.rectangle(o, {0, 0, 30}, {30, 0, 0}, s.diffuse(vec3(0.6f)));
       Material m;
-      m.diffuse = vec3(0);
+      color(m, "diffuse") = vec3(0);
       m.opacity = 0.25f;
       int mat = s.material(m);
       for (float h : {1.0f, 1.5f, 2.0f}) s.rectangle(o + vec3(0, h, 0), {5, 0.1f, 0}, {0, 0.05f, 5}, mat);
@@ -315,7 +315,7 @@ TEST(ClosedFormRender, AHalfTransparentLightShinesHalf) {
     SceneMaker s(32, 16, 512);
     s.rectangle({0, 0, 0}, {0, 0, 20}, {20, 0, 0}, s.diffuse(vec3(0.6f)));
     Material m;
-    m.diffuse = vec3(0);
+    color(m, "diffuse") = vec3(0);
     m.emission = vec3(2);
     m.opacity = 0.4f;
     s.rectangle({0, 2, 0}, {2, 0, 0}, {0, 0, 2}, s.material(m));

@@ -96,7 +96,7 @@ TEST(ClosedFormRender, InsideATwoSidedSphereThereIsItsRadianceAllAround) {
     s.document.scene.instances.clear();
     s.rectangle({0, 0, 0}, {0, 0, 0.5f}, {0.5f, 0, 0}, 0);
     Material m;
-    m.diffuse = vec3(0);
+    color(m, "diffuse") = vec3(0);
     m.emission = kLe;
     m.two_sided_emission = two_sided;
     s.sphere({0.5f, 0.25f, 0}, 2, s.material(m));
@@ -111,7 +111,7 @@ TEST(ClosedFormRender, DiscLightOnItsAxis) {
   for (bool turned : {false, true}) { // away from the plane: it must be two-sided to shine there
     SceneMaker s = plane_scene(256);
     Material m;
-    m.diffuse = vec3(0);
+    color(m, "diffuse") = vec3(0);
     m.emission = kLe;
     m.two_sided_emission = turned;
     vec3 x(1, 0, 0), z(0, 0, 1);
@@ -128,7 +128,7 @@ TEST(ClosedFormRender, ParallelRectangleLight) {
   for (bool turned : {false, true}) {
     SceneMaker s = plane_scene(256);
     Material m;
-    m.diffuse = vec3(0);
+    color(m, "diffuse") = vec3(0);
     m.emission = kLe;
     m.two_sided_emission = turned;
     vec3 x(0.75f, 0, 0), z(0, 0, 1);

@@ -3,6 +3,7 @@
 
 #include "core/hash.h"
 #include "render/film/render_pass.h"
+#include "support/materials.h"
 #include "support/scenes.h"
 #include "support/seed.h"
 #include "support/statistics.h"
@@ -17,13 +18,12 @@ inline int sampler_seed(std::uint64_t salt = 0) {
 }
 
 /// A material of the type that absorbs nothing.
-inline Material lossless(MaterialType type, float ior = 1.5f) {
-  Material m;
-  m.type = type;
-  m.diffuse = vec3(type == MaterialType::diffuse ? 1.0f : 0.0f);
-  m.specular = vec3(1);
-  m.ior = ior;
-  m.exponent = 20;
+inline Material lossless(std::string_view type, float ior = 1.5f) {
+  Material m = material_of_type(type);
+  set_if_there(m, "diffuse", vec3(type == "diffuse" ? 1.0f : 0.0f));
+  set_if_there(m, "specular", vec3(1));
+  set_if_there(m, "ior", ior);
+  set_if_there(m, "exponent", 20.0f);
   return m;
 }
 

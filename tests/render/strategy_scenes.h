@@ -3,6 +3,7 @@
 // strategy finds them often, for a test that waits for rare events finds nothing out.
 
 #include "render/render_testing.h"
+#include "support/textures.h"
 
 namespace candela::test {
 
@@ -11,13 +12,12 @@ struct NamedScene {
   Document document;
 };
 
-inline Material strategy_material(MaterialType type, vec3 diffuse, vec3 specular) {
-  Material m;
-  m.type = type;
-  m.diffuse = diffuse;
-  m.specular = specular;
-  m.exponent = 12;
-  m.roughness = 0.6f;
+inline Material strategy_material(std::string_view type, vec3 diffuse, vec3 specular) {
+  Material m = material_of_type(type);
+  set_if_there(m, "diffuse", diffuse);
+  set_if_there(m, "specular", specular);
+  set_if_there(m, "exponent", 12.0f);
+  set_if_there(m, "roughness", 0.6f);
   return m;
 }
 
@@ -41,11 +41,11 @@ inline Document mirror_and_glass_scene() {
   s.closed_box({-2, -1, -2}, {2, 2, 3}, white);
   s.rectangle({0, 1.9f, 0}, {1.2f, 0, 0}, {0, 0, 1.2f}, light);
   Material glass;
-  glass.type = MaterialType::dielectric;
-  glass.absorption = {0.1f, 0.4f, 0.8f};
+  glass.model = DielectricMaterial();
+  color(glass, "absorption") = {0.1f, 0.4f, 0.8f};
   s.sphere({0.8f, -0.3f, 0.5f}, 0.7f, s.material(glass));
   s.sphere({-0.8f, -0.3f, 0}, 0.7f,
-           s.material(strategy_material(MaterialType::mirror, {0.4f, 0.3f, 0.2f}, {0.5f, 0.6f, 0.6f})));
+           s.material(strategy_material("mirror", {0.4f, 0.3f, 0.2f}, {0.5f, 0.6f, 0.6f})));
   s.camera({0, 0.5f, 2.9f}, {0, 0, 0}, 60);
   return s.document;
 }
@@ -53,13 +53,11 @@ inline Document mirror_and_glass_scene() {
 /// A textured floor under emissive copies of one mesh, a half-transparent screen between them.
 inline Document instances_scene() {
   SceneMaker s(8, 8, 1);
-  auto texture = std::make_shared<Texture>();
-  texture->width = texture->height = 2;
-  texture->srgb = {255, 200, 100, 60, 120, 250, 200, 255, 200, 90, 60, 200};
-  s.document.scene.textures.push_back(texture);
+  s.document.scene.textures.push_back(
+      picture_texture(2, 2, {255, 200, 100, 60, 120, 250, 200, 255, 200, 90, 60, 200}));
   Material floor;
-  floor.diffuse = vec3(0.8f);
-  floor.diffuse_texture = 0;
+  color(floor, "diffuse") = vec3(0.8f);
+  use_of(floor).texture = 0;
   s.rectangle({0, 0, 0}, {0, 0, 3}, {3, 0, 0}, s.material(floor));
   auto ball = std::make_shared<const Mesh>(sphere_mesh(36, 40, false));
   int shine = s.diffuse(vec3(0.4f), {2, 3, 4});
@@ -68,9 +66,9 @@ inline Document instances_scene() {
     s.mesh_shared(ball, shine, glm::scale(place, {0.5f * x, 0.7f, 0.8f}));
   }
   Material screen;
-  screen.diffuse = vec3(0.5f);
+  color(screen, "diffuse") = vec3(0.5f);
   screen.opacity = 0.5f;
-  screen.emission = {1, 0.5f, 0.2f};
+  screen.emission = vec3(1, 0.5f, 0.2f);
   screen.two_sided_emission = true;
   s.rectangle({0, 0.8f, 0.5f}, {0.3f, 0, 0}, {0, 0.8f, 0}, s.material(screen));
   s.camera({0, 3, 5}, {0, 0.5f, 0}, 40);
@@ -82,7 +80,7 @@ inline Document sky_sun_and_lamp_scene() {
   int grey = s.diffuse({0.7f, 0.5f, 0.6f});
   s.rectangle({0, 0, 0}, {0, 0, 3}, {3, 0, 0}, grey);
   s.sphere({0, 0.8f, 0}, 0.8f,
-           s.material(strategy_material(MaterialType::phong, {0.3f, 0.3f, 0.4f}, {0.5f, 0.6f, 0.4f})));
+           s.material(strategy_material("phong", {0.3f, 0.3f, 0.4f}, {0.5f, 0.6f, 0.4f})));
   s.disc({-1.5f, 1, 0.5f}, 0.6f, {0, 1, 0}, {0, 0, 1}, s.diffuse(vec3(0.2f), {4, 2, 1}));
   s.constant_light({0.5f, 0.7f, 1});
   LightDesc sun;
@@ -122,10 +120,9 @@ inline Document environment_scene() {
   auto add = [&](const Shape& shape, vec3 at, Material m) {
     s.document.scene.instances.push_back({"", shape, glm::translate(mat4(1), at) * upright, {s.material(m)}});
   };
-  add(PlaneShape{}, {0, 0, 0}, strategy_material(MaterialType::diffuse, {0.7f, 0.5f, 0.6f}, vec3(0)));
-  add(CylinderShape{0.5f, 1.2f, true}, {-0.7f, 0, 0},
-      strategy_material(MaterialType::ggx, vec3(0), {0.9f, 0.7f, 0.5f}));
-  Material green = strategy_material(MaterialType::diffuse, {0.2f, 0.6f, 0.4f}, vec3(0));
+  add(PlaneShape{}, {0, 0, 0}, strategy_material("diffuse", {0.7f, 0.5f, 0.6f}, vec3(0)));
+  add(CylinderShape{0.5f, 1.2f, true}, {-0.7f, 0, 0}, strategy_material("ggx", vec3(0), {0.9f, 0.7f, 0.5f}));
+  Material green = strategy_material("diffuse", {0.2f, 0.6f, 0.4f}, vec3(0));
   add(TorusShape{0.5f, 0.2f}, {0.8f, 0.2f, 0.3f}, green);
   s.camera({0, 2.5f, 4}, {0, 0.4f, 0}, 40);
   return s.document;
@@ -135,12 +132,12 @@ inline Document environment_scene() {
 /// surface.
 inline Document smooth_gloss_scene() {
   SceneMaker s(8, 8, 1);
-  Material gloss = strategy_material(MaterialType::ggx, vec3(0), {0.9f, 0.8f, 0.7f});
-  gloss.roughness = 0.5f;
-  Material lacquer = strategy_material(MaterialType::phong, vec3(0.3f), vec3(0.6f));
-  lacquer.exponent = 10;
+  Material gloss = strategy_material("ggx", vec3(0), {0.9f, 0.8f, 0.7f});
+  number(gloss, "roughness") = 0.5f;
+  Material lacquer = strategy_material("phong", vec3(0.3f), vec3(0.6f));
+  number(lacquer, "exponent") = 10;
   for (const Material& m : {gloss, lacquer}) {
-    const float z = m.type == MaterialType::ggx ? -0.5f : 0.5f;
+    const float z = material_type_name(m) == "ggx" ? -0.5f : 0.5f;
     Mesh mesh;
     mesh.positions = {{-1, 0, z - 0.5f}, {-1, 0, z + 0.5f}, {1, 0, z + 0.5f}, {1, 0, z - 0.5f}};
     mesh.normals.assign(4, glm::normalize(vec3(0.8f, 0.6f, 0.1f)));
@@ -155,11 +152,10 @@ inline Document smooth_gloss_scene() {
 }
 
 inline std::vector<NamedScene> strategy_scenes() {
-  using enum MaterialType;
   Document cornell = cornell_flush(8, 8, 1, true).document;
   return {{"Cornell box with blocks", cornell},
-          {"phong plates", plates_scene(strategy_material(phong, {0.3f, 0.4f, 0.2f}, {0.5f, 0.4f, 0.6f}))},
-          {"ggx plates", plates_scene(strategy_material(ggx, vec3(0), {0.8f, 0.7f, 0.9f}))},
+          {"phong plates", plates_scene(strategy_material("phong", {0.3f, 0.4f, 0.2f}, {0.5f, 0.4f, 0.6f}))},
+          {"ggx plates", plates_scene(strategy_material("ggx", vec3(0), {0.8f, 0.7f, 0.9f}))},
           {"mirror and glass", mirror_and_glass_scene()},
           {"instances, texture, screen", instances_scene()},
           {"sky, sun and lamp", sky_sun_and_lamp_scene()},

@@ -1,5 +1,7 @@
 #include "core/error.h"
 #include "scene/document.h"
+#include "support/materials.h"
+#include "support/textures.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +10,7 @@
 namespace {
 
 using namespace candela;
+using test::use_of;
 
 /// The value moved to another one that its row allows.
 template <class T>
@@ -36,9 +39,10 @@ void change(const Field<T>& row, T& owner) {
   }
 }
 
-template <class T>
-void expect_sound_rows(std::span<const Field<T>> rows, T owner = {}) {
+template <class Row, class T>
+void expect_sound_rows(std::span<const Row> rows, T owner) {
   std::set<std::string_view> keys;
+  const T standard = owner;
   for (const auto& row : rows) {
     SCOPED_TRACE(row.key);
     EXPECT_TRUE(keys.insert(row.key).second) << "twice";
@@ -49,7 +53,7 @@ void expect_sound_rows(std::span<const Field<T>> rows, T owner = {}) {
     EXPECT_EQ(row.type == FieldType::choice, !row.choices.empty());
     EXPECT_TRUE(!row.logarithmic || row.minimum >= 0);
     std::string text = field_text(row, owner); // reads back to what it is
-    T again = owner;
+    T again = standard;
     change(row, again);
     EXPECT_FALSE(field_equal(row, row.address(owner), row.address(again)));
     field_from_text(row, row.address(again), text);
@@ -57,9 +61,16 @@ void expect_sound_rows(std::span<const Field<T>> rows, T owner = {}) {
   }
 }
 
+template <class T>
+void expect_sound_rows(std::span<const Field<T>> rows) {
+  expect_sound_rows(rows, T());
+}
+
 TEST(SettingsTable, RowsAreSound) {
   expect_sound_rows(settings_table());
-  expect_sound_rows(material_fields());
+  for (int type = 0; type < kMaterialTypeCount; ++type)
+    expect_sound_rows(material_fields(type), default_material(type));
+  expect_sound_rows(texture_use_fields());
   for (int type = 0; type < kLightTypeCount; ++type)
     expect_sound_rows(light_fields(type), default_light(type));
 }
@@ -80,12 +91,12 @@ TEST(SettingsTable, EveryChoiceIsTheEnumsName) {
     apply_setting(d, std::string("path.light_sampling=") + text);
     EXPECT_EQ(d.settings.path.light_sampling, value);
   }
-  for (auto [text, value] : {std::pair{"none", BrdfOverride::none},
-                             {"ggx", BrdfOverride::ggx},
-                             {"dielectric", BrdfOverride::dielectric}}) {
-    apply_setting(d, std::string("override.brdf=") + text);
-    EXPECT_EQ(d.settings.override_brdf.brdf, value);
+  for (std::string_view type : material_type_names()) {
+    apply_setting(d, std::string("override.brdf=") + std::string(type));
+    EXPECT_EQ(material_type_name(overriding_material(d.settings.override_brdf)), type);
   }
+  apply_setting(d, "override.brdf=none");
+  EXPECT_FALSE(d.settings.override_brdf.is_on());
   apply_setting(d, "sampler.type=stratified");
   EXPECT_EQ(d.settings.sampler.type, SamplerType::stratified);
   apply_setting(d, "path.rr=fixed");
@@ -132,10 +143,7 @@ Document with_things() {
   mesh->triangles = {{0, 1, 2}};
   d.scene.instances.push_back({"mesh", std::shared_ptr<const Mesh>(mesh), mat4(1), {0}});
   d.scene.instances.push_back({"ball", SphereShape{2}, mat4(1), {1}});
-  auto texture = std::make_shared<Texture>();
-  texture->width = texture->height = 1;
-  texture->srgb = {1, 2, 3};
-  d.scene.textures.push_back(texture);
+  d.scene.textures.push_back(test::picture_texture(1, 1, {1, 2, 3}));
   return d;
 }
 
@@ -148,10 +156,20 @@ TEST(CompareDocuments, AnEditCostsWhatItsRowSays) {
     EXPECT_EQ(compare_documents(before, after), row.invalidates) << row.key;
     EXPECT_EQ(compare_documents(after, before), row.invalidates) << row.key;
   }
-  for (const auto& row : material_fields()) {
+  for (int type = 0; type < kMaterialTypeCount; ++type) {
+    before.scene.materials[1] = default_material(type);
+    for (const auto& row : material_fields(type)) {
+      Document after = before;
+      change(row, after.scene.materials[1]);
+      EXPECT_EQ(compare_documents(before, after), row.invalidates) << row.key;
+      if (row.parameter == nullptr) continue;
+      after = before;
+      row.parameter(after.scene.materials[1]).use().texture = 0;
+      EXPECT_EQ(compare_documents(before, after), row.invalidates) << row.key << " as a texture";
+    }
     Document after = before;
-    change(row, after.scene.materials[1]);
-    EXPECT_EQ(compare_documents(before, after), row.invalidates) << row.key;
+    change_type(after.scene.materials[1], (type + 1) % kMaterialTypeCount);
+    EXPECT_EQ(compare_documents(before, after), Invalidates::scene);
   }
   for (int type = 0; type < kLightTypeCount; ++type) {
     Document of_type = before;
@@ -188,8 +206,8 @@ TEST(CompareDocuments, StructureRebuildsTheSceneAndNamesDoNot) {
   EXPECT_EQ(cost([](SceneDesc& s) { s.instances[0].materials[0] = 1; }), Invalidates::scene);
   EXPECT_EQ(cost([](SceneDesc& s) { s.instances[1].shape = SphereShape{3}; }), Invalidates::scene);
   EXPECT_EQ(cost([](SceneDesc& s) { s.textures.clear(); }), Invalidates::scene);
-  EXPECT_EQ(cost([](SceneDesc& s) { s.materials[0].diffuse_texture = 0; }), Invalidates::image);
-  EXPECT_EQ(cost([](SceneDesc& s) { s.materials[0].diffuse_uv.offset.x = 1; }), Invalidates::image);
+  EXPECT_EQ(cost([](SceneDesc& s) { use_of(s.materials[0]).texture = 0; }), Invalidates::image);
+  EXPECT_EQ(cost([](SceneDesc& s) { use_of(s.materials[0]).uv.offset.x = 1; }), Invalidates::image);
   EXPECT_EQ(cost([](SceneDesc& s) { s.materials[0].name = "x"; }), Invalidates::nothing);
 }
 
@@ -207,11 +225,7 @@ TEST(SameContent, LooksIntoMeshesAndTextures) {
     mesh->positions[2].y = 2;
     d.scene.instances[0].shape = std::shared_ptr<const Mesh>(mesh);
   }));
-  EXPECT_TRUE(differs([](Document& d) {
-    auto texture = std::make_shared<Texture>(*d.scene.textures[0]);
-    texture->srgb[1] = 9;
-    d.scene.textures[0] = texture;
-  }));
+  EXPECT_TRUE(differs([](Document& d) { d.scene.textures[0] = test::picture_texture(1, 1, {1, 9, 3}); }));
   EXPECT_TRUE(differs([](Document& d) { d.scene.instances[1].shape = DiscShape{}; }));
   EXPECT_TRUE(differs([](Document& d) { d.scene.instances[1].name = "other"; }));
   EXPECT_TRUE(differs([](Document& d) { d.scene.instances[0].world_from_object[3].x = 1; }));
@@ -230,15 +244,22 @@ TEST(DocumentProblem, NamesWhatIsWrong) {
   auto starts = [](const std::string& text, std::string_view with) { return text.starts_with(with); };
   EXPECT_EQ(problem([](Document& d) { d.settings.path.max_depth = -7; }),
             "path.max_depth: -7 is out of range; give an integer from -1 to 1000000, in segments");
-  EXPECT_PRED2(starts, problem([](Document& d) { d.scene.materials[1].roughness = NAN; }),
+  EXPECT_PRED2(starts, problem([](Document& d) {
+                 d.scene.materials[1].model = GgxMaterial{vec3(0), NAN};
+               }),
                "materials[1].roughness: is not a number");
-  EXPECT_PRED2(starts,
-               problem([](Document& d) { d.scene.materials[1].type = static_cast<MaterialType>(77); }),
-               "materials[1].type");
-  EXPECT_PRED2(starts, problem([](Document& d) { d.scene.materials[0].diffuse_uv.scale.y = kInfinity; }),
-               "materials[0].diffuse_uv_scale");
-  EXPECT_PRED2(starts, problem([](Document& d) { d.scene.materials[0].diffuse_texture = 1; }),
-               "materials[0].diffuse_texture");
+  EXPECT_PRED2(starts, problem([](Document& d) { use_of(d.scene.materials[0]).uv.scale.y = kInfinity; }),
+               "materials[0].diffuse.uv_scale");
+  EXPECT_PRED2(starts, problem([](Document& d) { use_of(d.scene.materials[0]).texture = 1; }),
+               "materials[0].diffuse.texture");
+  EXPECT_PRED2(starts, problem([](Document& d) { d.scene.materials[0].opacity.use.texture = -2; }),
+               "materials[0].opacity.texture");
+  EXPECT_PRED2(starts, problem([](Document& d) { d.scene.materials[0].emission.offset.b = NAN; }),
+               "materials[0].emission.offset");
+  EXPECT_PRED2(starts, problem([](Document& d) {
+                 d.scene.textures[0] = test::picture_texture(2, 1, {1, 2, 3});
+               }),
+               "textures[0].its pixels");
   EXPECT_PRED2(starts, problem([](Document& d) { d.scene.lights[0].color.g = INFINITY; }), "lights[0].color");
   EXPECT_PRED2(starts, problem([](Document& d) { d.scene.lights[0].model = DirectionalLightModel{vec3(0)}; }),
                "lights[0].direction");
@@ -271,15 +292,9 @@ TEST(DocumentProblem, NamesWhatIsWrong) {
                  "instances[0].mesh");
 }
 
-TEST(SceneDesc, TypesUseTheirFieldsOnly) {
-  for (const auto& row : material_fields()) {
-    bool used = false;
-    for (int t = 0; t < 5; ++t) used |= material_uses(static_cast<MaterialType>(t), row.key);
-    EXPECT_TRUE(used) << row.key;
-  }
-  EXPECT_FALSE(material_uses(MaterialType::dielectric, "diffuse"));
-  EXPECT_TRUE(material_uses(MaterialType::dielectric, "absorption"));
-  EXPECT_FALSE(material_uses(MaterialType::diffuse, "specular"));
+TEST(SceneDesc, LightTypesUseTheirFieldsOnly) {
+  EXPECT_FALSE(light_uses(LightType::constant, "position"));
+  EXPECT_TRUE(light_uses(LightType::directional, "direction"));
 }
 
 } // namespace

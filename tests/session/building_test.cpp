@@ -2,6 +2,7 @@
 
 #include "session/session_testing.h"
 #include "support/build_gate.h"
+#include "support/materials.h"
 
 #include <chrono>
 #include <thread>
@@ -206,7 +207,7 @@ TEST(SessionBuilding, ACameraMoveBuildsNothing) {
     EXPECT_EQ(moved->shared_lights(), first->shared_lights());
   }
   EXPECT_EQ(builds, 1);
-  d.scene.materials[0].diffuse *= 0.5f;
+  test::color(d.scene.materials[0], "diffuse") *= 0.5f;
   ASSERT_TRUE(shows(session, d));
   EXPECT_NE(session.built().scene->shared_materials(), first->shared_materials());
   EXPECT_EQ(session.built().scene->shared_lights(), first->shared_lights());

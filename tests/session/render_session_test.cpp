@@ -2,12 +2,15 @@
 // for events, with limits only against hanging for ever.
 
 #include "session/session_testing.h"
+#include "support/materials.h"
 
 #include <chrono>
 #include <thread>
 
 namespace candela {
 namespace {
+
+using test::color;
 
 using test::headless;
 using test::kPatience;
@@ -98,7 +101,7 @@ TEST(RenderSession, AMaterialEditRestartsAndShowsItself) {
   RenderSession session;
   Document d = small_cornell();
   ASSERT_TRUE(shows(session, d));
-  d.scene.materials[0].diffuse = {0.1f, 0.2f, 0.9f};
+  color(d.scene.materials[0], "diffuse") = {0.1f, 0.2f, 0.9f};
   ASSERT_TRUE(shows(session, d));
   EXPECT_EQ(session.status().restarts, 2u);
   EXPECT_TRUE(session.latest()->linear == headless(d));

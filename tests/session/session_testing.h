@@ -22,8 +22,7 @@ inline Document small_cornell(int spp = 4, int width = 61, int height = 43) {
 inline Document slow_document() {
   SceneMaker s(96, 96, 1);
   Material glass;
-  glass.type = MaterialType::dielectric;
-  glass.ior = 2.5f;
+  glass.model = DielectricMaterial{2.5f};
   const int material = s.material(glass);
   s.document.scene.instances.push_back({"", CubeShape{}, mat4(1), {material}});
   s.camera({0, 0, 0}, {0.3f, 0.2f, 1}, 60);

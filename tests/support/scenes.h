@@ -22,7 +22,7 @@ public:
   }
   int diffuse(vec3 reflectance, vec3 emission = vec3(0)) {
     Material m;
-    m.diffuse = reflectance;
+    m.model = DiffuseMaterial{reflectance};
     m.emission = emission;
     return material(m);
   }

@@ -1,6 +1,6 @@
 #include "app/cli/compare_command.h"
 #include "io/images/image_file.h"
-#include "io/images/texture_reader.h"
+#include "io/images/texels_reader.h"
 #include "support/exit_code.h"
 #include "support/scratch_folder.h"
 
@@ -34,7 +34,7 @@ TEST(CompareCommand, PrintsTheMeasuresAsJson) {
   EXPECT_GT(out["PSNR"].get<double>(), 0);
   EXPECT_GT(out["FLIP"].get<double>(), 0);
   EXPECT_EQ(out["nonfinite_pixels"], 0);
-  auto diff = read_texture(folder / "diff.png");
+  auto diff = read_texels(folder / "diff.png");
   EXPECT_EQ(diff->width, 6);
   EXPECT_EQ(diff->height, 4);
 }

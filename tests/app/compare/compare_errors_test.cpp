@@ -3,7 +3,7 @@
 #include "app/compare/compare_testing.h"
 #include "imaging/compare.h"
 #include "imaging/difference.h"
-#include "io/images/texture_reader.h"
+#include "io/images/texels_reader.h"
 #include "render/film/film_view.h"
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ TEST(CompareErrorsUi, AReferenceGivesErrorsThatFall) {
   hand.wait_until("the figure is written", [&] { return fs::exists(folder / "candela-compare.png"); });
   hand.click("compare.export");
   hand.wait_until("another one is written", [&] { return fs::exists(folder / "candela-compare-2.png"); });
-  const auto figure = read_texture(folder / "candela-compare.png");
+  const auto figure = read_texels(folder / "candela-compare.png");
   EXPECT_GT(figure->width, 3 * 300);
   EXPECT_GT(figure->height, 500) << "pictures and the plot";
   fs::copy_file(folder / "candela-compare.png", screenshot_path("compare_export.png"),

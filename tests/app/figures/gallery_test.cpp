@@ -3,7 +3,7 @@
 #include "app/console/picture_output.h"
 #include "core/error.h"
 #include "io/images/image_file.h"
-#include "io/images/texture_reader.h"
+#include "io/images/texels_reader.h"
 #include "io/scene_reader.h"
 #include "render/film/film_view.h"
 #include "session/offline_render.h"
@@ -133,7 +133,7 @@ TEST(GalleryRender, APlainPictureIsTheRendersOwn) {
   document.settings.stop = {};
   document.settings.stop.spp = 3;
   const OfflineResult result = render_document(document);
-  const auto written = read_texture(gallery.folder / "out/plain.png");
+  const auto written = read_texels(gallery.folder / "out/plain.png");
   EXPECT_EQ(written->width, 24);
   EXPECT_EQ(written->height, 20);
   EXPECT_EQ(written->srgb, displayed_srgb8(result.film.image(), document.settings.display,
@@ -156,11 +156,11 @@ TEST(GalleryRender, APictureMayBeDenoisedOrAnotherView) {
   const auto denoised = denoised_picture(document, result, {});
   ASSERT_TRUE(denoised);
   EXPECT_EQ(
-      read_texture(gallery.folder / "out/smooth.png")->srgb,
+      srgb8_texels(*read_texels(gallery.folder / "out/smooth.png")),
       displayed_srgb8(denoised->image, document.settings.display, View::radiance, result.display_scale));
   document.settings.view = View::variance;
   result = render_document(document);
-  EXPECT_EQ(read_texture(gallery.folder / "out/spread.png")->srgb,
+  EXPECT_EQ(srgb8_texels(*read_texels(gallery.folder / "out/spread.png")),
             displayed_srgb8(view_image(result.film, View::variance), document.settings.display,
                             View::variance, result.display_scale));
 }

@@ -37,7 +37,7 @@ TEST_F(History, StepsThereAndBack) {
   state.document.settings.path.max_depth = 5;
   observe();
   EXPECT_EQ(history.undo_name(), "path.max_depth");
-  state.document.scene.materials[0].roughness = 0.7f;
+  state.document.scene.materials[0].opacity = 0.7f;
   observe();
   EXPECT_EQ(history.undo_name(), "red: roughness");
   const Document last = state.document;
@@ -116,10 +116,10 @@ TEST_F(History, NamesSayWhatWasEdited) {
   EXPECT_EQ(name([](EditState& s) { s.document.scene.instances[0].world_from_object[0].x = 2; }),
             "ball: transform");
   EXPECT_EQ(name([](EditState& s) { s.document.scene.lights[0].scale = 2; }), "Light 0: scale");
-  EXPECT_EQ(name([](EditState& s) { s.document.scene.materials[1].ior = 2; }), "Material 1: ior");
+  EXPECT_EQ(name([](EditState& s) { s.document.scene.materials[1].opacity = 0.5f; }), "Material 1: opacity");
   EXPECT_EQ(name([](EditState& s) { s.document.scene.lights.clear(); }), "Remove Light");
   EXPECT_EQ(name([](EditState& s) {
-              for (Material& m : s.document.scene.materials) m.ior = 3;
+              for (Material& m : s.document.scene.materials) m.opacity = 0.3f;
             }),
             "2 materials");
   EXPECT_EQ(name([](EditState& s) {

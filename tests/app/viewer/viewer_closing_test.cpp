@@ -46,8 +46,7 @@ private:
 Document inside_glass() {
   Document document;
   Material glass;
-  glass.type = MaterialType::dielectric;
-  glass.ior = 1.5f;
+  glass.model = DielectricMaterial();
   document.scene.materials.push_back(glass);
   document.scene.instances.push_back({"cube", CubeShape{}, mat4(1), {0}});
   LightDesc sky;

@@ -1,8 +1,11 @@
 // Panoramas in the window: dropped on it, chosen by path, turned.
 
 #include "app/harness.h"
+#include "support/materials.h"
 
 namespace {
+
+using test::color;
 
 using namespace candela;
 using namespace candela::test;
@@ -19,7 +22,7 @@ std::string write_sky(const ScratchFolder& folder, const std::string& name, int 
 Document ball_on_a_plane() {
   Document document;
   document.scene.materials.resize(1);
-  document.scene.materials[0].diffuse = vec3(0.6f);
+  color(document.scene.materials[0], "diffuse") = vec3(0.6f);
   document.scene.instances.push_back({"ball", SphereShape{1}, mat4(1), {0}});
   document.scene.instances.push_back(
       {"floor",

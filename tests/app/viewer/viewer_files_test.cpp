@@ -3,6 +3,7 @@
 #include "app/harness.h"
 #include "io/candela/candela_json.h"
 #include "support/build_gate.h"
+#include "support/materials.h"
 
 #include <fstream>
 
@@ -169,27 +170,29 @@ TEST(ViewerFilesUi, AFileThatChangesIsReadAgain) {
   hand.key_up(Key::w);
   hand.frame(2);
   const Camera seen = hand.document().scene.camera;
-  document.scene.materials[0].diffuse = {0.1f, 0.2f, 0.9f};
+  color(document.scene.materials[0], "diffuse") = {0.1f, 0.2f, 0.9f};
   write_candela_json(document, path);
   hand.wait_until("it is reloaded", [&] {
-    return hand.document().scene.materials[0].diffuse == document.scene.materials[0].diffuse;
+    return color(hand.document().scene.materials[0], "diffuse") ==
+           color(document.scene.materials[0], "diffuse");
   });
   EXPECT_EQ(hand.document().scene.camera, seen);
 
   hand.type_into("display.exposure", "1");
-  document.scene.materials[0].diffuse = {0.9f, 0.2f, 0.1f};
+  color(document.scene.materials[0], "diffuse") = {0.9f, 0.2f, 0.1f};
   write_candela_json(document, path);
   hand.wait_until("it asks", [&] { return hand.find("question.reload").has_value(); });
   EXPECT_EQ(hand.document().settings.display.exposure, 1.0f);
   hand.click("reload.no");
   hand.frame(2);
   EXPECT_FALSE(hand.find("question.reload"));
-  document.scene.materials[0].diffuse = {0.5f, 0.2f, 0.1f};
+  color(document.scene.materials[0], "diffuse") = {0.5f, 0.2f, 0.1f};
   write_candela_json(document, path);
   hand.wait_until("it asks", [&] { return hand.find("question.reload").has_value(); });
   hand.click("reload.yes");
   hand.wait_until("it is reloaded", [&] {
-    return hand.document().scene.materials[0].diffuse == document.scene.materials[0].diffuse;
+    return color(hand.document().scene.materials[0], "diffuse") ==
+           color(document.scene.materials[0], "diffuse");
   });
   EXPECT_EQ(hand.document().settings.display.exposure, 0.0f);
 }

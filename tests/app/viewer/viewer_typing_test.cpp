@@ -2,6 +2,7 @@
 
 #include "app/harness.h"
 #include "io/candela/candela_json.h"
+#include "support/materials.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -217,7 +218,7 @@ TEST(ViewerTypingUi, ADecimalCommaCountsEverywhere) {
   hand.reveal("list.materials");
   hand.click("materials/1");
   hand.type_into("material.diffuse.g", ",25");
-  EXPECT_EQ(hand.document().scene.materials[1].diffuse.g, 0.25f);
+  EXPECT_EQ(color(hand.document().scene.materials[1], "diffuse").g, 0.25f);
   hand.type_into("camera.speed", "2,5");
   EXPECT_EQ(hand.state().speed_factor, 2.5f);
   hand.type_into("path.max_depth", "1e1");
@@ -283,17 +284,17 @@ TEST(ViewerTypingUi, TheColourPickersNumbersAreReadLikeAllOthers) {
     hand.frame(2);
   };
   type("material.diffuse.picker.r", "255");
-  EXPECT_NEAR(hand.document().scene.materials[1].diffuse.r, 1, 1e-5f);
-  const vec3 before = hand.document().scene.materials[1].diffuse;
+  EXPECT_NEAR(color(hand.document().scene.materials[1], "diffuse").r, 1, 1e-5f);
+  const vec3 before = color(hand.document().scene.materials[1], "diffuse");
   type("material.diffuse.picker.r", "1,5");
   type("material.diffuse.picker.r", "2+3");
   type("material.diffuse.picker.code", "#12345");
-  EXPECT_EQ(hand.document().scene.materials[1].diffuse, before);
+  EXPECT_EQ(color(hand.document().scene.materials[1], "diffuse"), before);
   EXPECT_NE(hand.state().notice.find("no colour"), std::string::npos) << hand.state().notice;
   hand.screenshot("colour_picker");
   type("material.diffuse.picker.code", "#ff0080");
-  EXPECT_NEAR(hand.document().scene.materials[1].diffuse.g, 0, 1e-5f);
-  EXPECT_NEAR(hand.document().scene.materials[1].diffuse.b, 0.2158605f, 1e-4f);
+  EXPECT_NEAR(color(hand.document().scene.materials[1], "diffuse").g, 0, 1e-5f);
+  EXPECT_NEAR(color(hand.document().scene.materials[1], "diffuse").b, 0.2158605f, 1e-4f);
 }
 
 TEST(ViewerTypingUi, NoTooltipLiesOverWhatIsTyped) {

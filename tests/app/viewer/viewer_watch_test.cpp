@@ -2,6 +2,7 @@
 
 #include "app/harness.h"
 #include "io/files/path_policy.h"
+#include "support/materials.h"
 
 #include <fmt/format.h>
 
@@ -55,12 +56,12 @@ TEST(ViewerWatchUi, EveryKindOfFileThatASceneHasIsReadAgain) {
   auto scene = [&]() -> const SceneDesc& { return hand.document().scene; };
   auto texel = [&](std::string_view name) -> int {
     for (const auto& texture : scene().textures)
-      if (texture->name == name) return texture->srgb[0];
+      if (texture->name == name) return srgb8_texels(*texture->image()->texels)[0];
     return -1;
   };
   auto material = [&](std::string_view name) -> float {
     for (const Material& m : scene().materials)
-      if (m.name == name) return m.diffuse.x;
+      if (m.name == name) return color(m, "diffuse").x;
     return -1;
   };
   auto corner = [&] {

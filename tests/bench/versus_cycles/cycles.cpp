@@ -31,15 +31,18 @@ Error unknown(std::string_view element, std::string_view cause) {
 }
 
 json material_json(const Material& m) {
-  if (m.type != MaterialType::diffuse && m.type != MaterialType::ggx) throw unknown("material", "its type");
-  if (m.diffuse_texture >= 0 || m.opacity < 1) throw unknown("material", "its texture or opacity");
-  if (m.type == MaterialType::ggx && (m.specular != vec3(1) || m.emission != vec3(0)))
+  if (!std::holds_alternative<DiffuseMaterial>(m.model) && !std::holds_alternative<GgxMaterial>(m.model))
+    throw unknown("material", "its type");
+  if (is_textured(m) || m.opacity.value < 1) throw unknown("material", "its texture or opacity");
+  const auto* diffuse = std::get_if<DiffuseMaterial>(&m.model);
+  const auto* metal = std::get_if<GgxMaterial>(&m.model);
+  if (metal != nullptr && (metal->specular != vec3(1) || m.emission != vec3(0)))
     throw unknown("material", "a Fresnel term or emission of ggx");
-  return {{"type", m.type == MaterialType::ggx ? "ggx" : "diffuse"},
-          {"diffuse", to_json(m.diffuse)},
-          {"specular", to_json(m.specular)},
-          {"roughness", m.roughness},
-          {"emission", to_json(m.emission)}};
+  return {{"type", std::string(material_type_name(m))},
+          {"diffuse", to_json(diffuse != nullptr ? diffuse->diffuse.value : vec3(0))},
+          {"specular", to_json(metal != nullptr ? metal->specular.value : vec3(0))},
+          {"roughness", metal != nullptr ? metal->roughness.value : 0},
+          {"emission", to_json(m.emission.value)}};
 }
 
 template <class T>
@@ -88,7 +91,7 @@ void write_cycles_scene(const Document& document, const std::string& folder) {
     const Instance& instance = scene.instances[i];
     const mat4& m = instance.world_from_object;
     int index = instance.materials.at(0);
-    vec3 emission = scene.materials.at(static_cast<std::size_t>(index)).emission;
+    vec3 emission = scene.materials.at(static_cast<std::size_t>(index)).emission.value;
     if (auto mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
       if (emission != vec3(0)) throw unknown("instance", "a mesh that shines");
       out["meshes"].push_back(mesh_json(**mesh, m, index, folder, i));

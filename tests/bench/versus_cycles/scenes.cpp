@@ -137,10 +137,7 @@ VersusScene veach_plates(int size) {
                                        {0.1f, 0.48f, -1.7f, 2.05f},
                                        {0.2f, 0.54f, -2.1f, 3.3f}}}) {
     Material m;
-    m.type = MaterialType::ggx;
-    m.diffuse = vec3(0);
-    m.specular = vec3(1);
-    m.roughness = std::sqrt(p.alpha);
+    m.model = GgxMaterial{vec3(1), std::sqrt(p.alpha)};
     vec3 center(0, p.y, p.z); // turned to mirror the row of lamps into the camera
     vec3 normal = glm::normalize(glm::normalize(eye - center) + glm::normalize(lamps - center));
     s.rectangle(center, {2.6f, 0, 0}, p.height * glm::cross(normal, vec3(1, 0, 0)), s.material(m));

@@ -1,7 +1,9 @@
 // What the writer writes, the reader reads back the same, to the last bit.
 
 #include "io/scene_files.h"
+#include "support/materials.h"
 #include "support/seed.h"
+#include "support/textures.h"
 
 #include <algorithm>
 #include <cstring>
@@ -9,6 +11,8 @@
 
 namespace candela {
 namespace {
+
+using test::use_of;
 
 using test::mesh_of;
 using test::SceneFiles;
@@ -96,12 +100,15 @@ TEST_F(CandelaJsonRoundTrip, EveryRowOfEveryTableInIsolation) {
     if (row.key == "camera.up") document.scene.camera.up.x += 1; // not along the view
     check(document);
   }
-  for (const auto& row : material_fields()) {
-    Document document;
-    document.scene.materials.resize(2);
-    randomise(row, document.scene.materials[1], random);
-    check(document);
-  }
+  for (int type = 0; type < kMaterialTypeCount; ++type)
+    for (const auto& row : material_fields(type)) {
+      Document document;
+      document.scene.materials.resize(2);
+      document.scene.materials[1] = default_material(type);
+      check(document);
+      randomise(row, document.scene.materials[1], random);
+      check(document);
+    }
   for (int type = 0; type < kLightTypeCount; ++type)
     for (const auto& row : light_fields(type)) {
       Document document;
@@ -118,10 +125,10 @@ TEST_F(CandelaJsonRoundTrip, RandomDocuments) {
     Document document;
     for (const auto& row : settings_table()) randomise(row, document, random);
     for (int i = 0; i < 5; ++i) {
-      Material material;
+      Material material = default_material(i % kMaterialTypeCount);
       material.name = i == 4 ? "material 3" : "material " + std::to_string(i); // two of one name
       if (i == 0) material.name.clear();
-      for (const auto& row : material_fields()) randomise(row, material, random);
+      for (const auto& row : material_fields(material)) randomise(row, material, random);
       document.scene.materials.push_back(material);
       LightDesc light = default_light(i % kLightTypeCount);
       for (const auto& row : light_fields(light)) randomise(row, light, random);
@@ -217,13 +224,74 @@ TEST_F(CandelaJsonRoundTrip, Textures) {
   ASSERT_EQ(document.scene.textures.size(), 2u);
   check(document);
   EXPECT_EQ(test::read_text(files / "out.json").find("\"textures\""), std::string::npos);
-  std::swap(document.scene.materials[0].diffuse_texture, document.scene.materials[1].diffuse_texture);
+  std::swap(use_of(document.scene.materials[0]).texture, use_of(document.scene.materials[1]).texture);
   check(document); // an order that the materials do not give
-  auto made = std::make_shared<Texture>();
-  made->name = "made", made->width = 1, made->height = 2, made->srgb = {1, 2, 3, 4, 5, 255};
+  auto made = std::make_shared<Texture>(*test::picture_texture(1, 2, {1, 2, 3, 4, 5, 255}));
+  made->name = "made";
   document.scene.textures.push_back(made);
-  document.scene.materials[2].diffuse_texture = 2;
+  use_of(document.scene.materials[2]).texture = 2;
   check(document);
+}
+
+/// Every channel count and precision, and every other kind.
+std::vector<std::shared_ptr<const Texture>> all_textures() {
+  std::vector<std::shared_ptr<const Texture>> all;
+  auto add = [&](const char* name, TextureModel model) {
+    all.push_back(std::make_shared<const Texture>(Texture{name, std::move(model)}));
+  };
+  auto picture = [&](const char* name, int channels, Texels::Data data) {
+    add(name, ImageTexture{"", std::make_shared<const Texels>(Texels{2, 1, channels, std::move(data)})});
+  };
+  picture("grey", 1, std::vector<std::uint8_t>{0, 255});
+  picture("alpha", 4, std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8});
+  picture("deep", 3, std::vector<std::uint16_t>{1, 65535, 3, 4, 5, 6});
+  picture("float", 1, std::vector<float>{-1.5f, 1e9f / 3});
+  add("checker", CheckerTexture{{0.1f, 0.2f, 7}, {0.3f, 0.4f, 1 / 3.0f}, 2.5f});
+  for (std::string_view kind : texture_kind_names())
+    if (kind != ImageTexture::kName) add("default", *texture_of_kind(kind));
+  return all;
+}
+
+TEST_F(CandelaJsonRoundTrip, EveryKindOfTexture) {
+  Document document;
+  document.scene.textures = all_textures();
+  check(document);
+}
+
+TEST_F(CandelaJsonRoundTrip, EveryParameterAsATextureWithEveryRowOfItsUse) {
+  std::mt19937 random(static_cast<std::mt19937::result_type>(test::fresh_seed()));
+  SCOPED_TRACE(test::seed_note());
+  Document document;
+  document.scene.textures = all_textures();
+  for (int type = 0; type < kMaterialTypeCount; ++type) {
+    const Material standard = default_material(type);
+    each_parameter(standard, [&](const MaterialField& row, const ParameterRef&) {
+      auto add = [&](auto edit) {
+        Material m = standard;
+        const ParameterRef parameter = find_parameter(m, row.key);
+        parameter.use().texture = 4;
+        edit(parameter);
+        document.scene.materials.push_back(m);
+      };
+      add([](const ParameterRef&) {});
+      add([&](const ParameterRef& p) { p.use().uv = {{2, 0.1f}, {-3, 1 / 3.0f}, 0.7f}; });
+      add([&](const ParameterRef& p) {
+        if (p.number != nullptr)
+          p.number->offset = -0.7f;
+        else
+          p.color->offset = {1, -2, 1 / 3.0f};
+      });
+      for (const auto& part : texture_use_fields())
+        add([&](const ParameterRef& p) {
+          const TextureUse before = p.use();
+          while (p.use() == before) randomise(part, p.use(), random);
+        });
+    });
+  }
+  EXPECT_GT(document.scene.materials.size(), 100u);
+  const LoadedScene again = check(document);
+  for (std::size_t i = 0; i < document.scene.materials.size(); ++i)
+    EXPECT_EQ(again.document.scene.materials[i], document.scene.materials[i]) << i;
 }
 
 TEST_F(CandelaJsonRoundTrip, Panoramas) {

@@ -1,7 +1,11 @@
 #include "io/candela_json_files.h"
+#include "support/materials.h"
 
 namespace candela {
 namespace {
+
+using test::color;
+using test::use_of;
 
 using test::CandelaJson;
 using test::mesh_of;
@@ -51,13 +55,13 @@ TEST_F(CandelaJson, ReadsEveryPart) {
   EXPECT_EQ(kite.uvs[3], vec2(1));
   EXPECT_EQ(kite.material_slots, (std::vector<std::uint32_t>{0, 1}));
 
-  EXPECT_EQ(s.materials[0].type, MaterialType::phong);
-  EXPECT_EQ(s.materials[0].diffuse, vec3(0.5f, 0.1f, 0.25f));
-  EXPECT_EQ(s.materials[0].specular, vec3(0.25f)) << "one number is a grey";
-  EXPECT_EQ(s.materials[0].diffuse_texture, 0);
+  EXPECT_EQ(material_type_name(s.materials[0]), "phong");
+  EXPECT_EQ(color(s.materials[0], "diffuse"), vec3(0.5f, 0.1f, 0.25f));
+  EXPECT_EQ(color(s.materials[0], "specular"), vec3(0.25f)) << "one number is a grey";
+  EXPECT_EQ(use_of(s.materials[0]).texture, 0);
   EXPECT_TRUE(s.materials[1].two_sided_emission);
   ASSERT_EQ(s.textures.size(), 1u);
-  EXPECT_EQ(s.textures[0]->srgb, (std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0}));
+  EXPECT_EQ(srgb8_texels(*s.textures[0]->image()->texels), (std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0}));
   EXPECT_EQ(light_type_name(s.lights[0]), "constant");
   EXPECT_EQ(s.lights[0].color, vec3(1, 2, 3));
   EXPECT_EQ(light_type_name(s.lights[1]), "directional");
@@ -105,7 +109,7 @@ TEST_F(CandelaJson, ImportsTheMaterialsOfAnObj) {
   const SceneDesc& s = loaded.document.scene;
   ASSERT_EQ(s.materials.size(), 5u);
   EXPECT_EQ(s.materials[1].name, "tree/leaf");
-  EXPECT_EQ(s.materials[1].diffuse_texture, 0);
+  EXPECT_EQ(use_of(s.materials[1]).texture, 0);
   EXPECT_EQ(s.materials[2].name, "tree/bark");
   EXPECT_EQ(s.instances[0].materials, (std::vector<int>{1, 2}));
   EXPECT_EQ(s.instances[1].materials, (std::vector<int>{0, 2}));

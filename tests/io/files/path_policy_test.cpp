@@ -1,9 +1,12 @@
 // What a scene may name: files beside and below it, nothing else unless it is allowed.
 
 #include "io/scene_files.h"
+#include "support/materials.h"
 
 namespace candela {
 namespace {
+
+using test::color;
 
 namespace fs = std::filesystem;
 using test::SceneFiles;
@@ -89,8 +92,9 @@ TEST_F(PathPolicyOfScenes, HoldsForMtlAndTexturesToo) {
   files.write("inside/a.obj", std::string("mtllib ../secret.mtl\nusemtl m\n") + kObj);
   scene("a.obj");
   EXPECT_TRUE(test::says(files.error("inside/s.json"), "inside/a.obj:1:1: mtllib: ", {"--allow-outside"}));
-  EXPECT_EQ(files.read("inside/s.json", {.allow_outside = true}).document.scene.materials[0].diffuse,
-            vec3(1, 0, 0));
+  EXPECT_EQ(
+      color(files.read("inside/s.json", {.allow_outside = true}).document.scene.materials[0], "diffuse"),
+      vec3(1, 0, 0));
   files.write("inside/b.mtl", "newmtl m\nmap_Kd ../secret.png\n");
   files.write("inside/b.obj", std::string("mtllib b.mtl\nusemtl m\n") + kObj);
   scene("b.obj");
@@ -100,7 +104,7 @@ TEST_F(PathPolicyOfScenes, HoldsForMtlAndTexturesToo) {
   files.write("inside/deep/c.obj", std::string("mtllib ../b2.mtl\nusemtl m\n") + kObj);
   files.write("inside/b2.mtl", "newmtl m\nKd 0 1 0\n");
   scene("deep/c.obj");
-  EXPECT_EQ(files.read("inside/s.json").document.scene.materials[0].diffuse, vec3(0, 1, 0));
+  EXPECT_EQ(color(files.read("inside/s.json").document.scene.materials[0], "diffuse"), vec3(0, 1, 0));
 }
 
 TEST_F(PathPolicyOfScenes, HoldsForCs123) {

@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "io/images/image_codec.h"
 #include "io/images/panorama_reader.h"
-#include "io/images/texture_reader.h"
+#include "io/images/texels_reader.h"
 #include "support/scratch_folder.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -93,7 +93,7 @@ TEST_F(ExrLayers, CoordinatesAreNoLuminance) {
 TEST_F(ExrLayers, PanoramasAndTexturesAlike) {
   const std::string path = write({{"depth", {"Z"}}, {"x", {"R", "G", "B"}}, {"rgba", {"R", "G", "B"}}});
   EXPECT_EQ(read_panorama(std::span(&path, 1), warnings)->image.pixels[0], vec3(5, 6, 7));
-  read_texture(path, warnings);
+  read_texels(path, warnings);
   ASSERT_EQ(warnings.warnings().size(), 1u);
   EXPECT_EQ(warnings.warnings()[0].count, 2);
 }

@@ -1,7 +1,7 @@
 #include "core/color.h"
 #include "io/files/atomic_file.h"
 #include "io/images/image_file.h"
-#include "io/images/texture_reader.h"
+#include "io/images/texels_reader.h"
 #include "support/exit_code.h"
 #include "support/scratch_folder.h"
 
@@ -163,12 +163,10 @@ TEST(ImageFile, PngAndPpmKeepEveryByte) {
     auto rgb = gradient(width, height);
     for (const char* name : {"a.png", "a.ppm"}) {
       write_srgb8_image(width, height, rgb, folder / name);
-      auto texture = read_texture(folder / name);
+      auto texture = read_texels(folder / name);
       EXPECT_EQ(texture->width, width);
       EXPECT_EQ(texture->height, height);
-      EXPECT_EQ(texture->srgb, rgb) << name;
-      EXPECT_EQ(texture->name, name);
-      EXPECT_EQ(texture->source, folder / name);
+      EXPECT_EQ(srgb8_texels(*texture), rgb) << name;
       Image image = read_image(folder / name);
       for (std::size_t i = 0; i < image.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c)
@@ -182,9 +180,9 @@ TEST(ImageFile, JpgIsClose) {
   ScratchFolder folder;
   auto rgb = gradient(64, 48);
   write_srgb8_image(64, 48, rgb, folder / "a.jpg");
-  auto texture = read_texture(folder / "a.jpg");
-  ASSERT_EQ(texture->srgb.size(), rgb.size());
-  for (std::size_t i = 0; i < rgb.size(); ++i) ASSERT_NEAR(texture->srgb[i], rgb[i], 8) << i;
+  const auto texture = srgb8_texels(*read_texels(folder / "a.jpg"));
+  ASSERT_EQ(texture.size(), rgb.size());
+  for (std::size_t i = 0; i < rgb.size(); ++i) ASSERT_NEAR(texture[i], rgb[i], 8) << i;
 }
 
 TEST(ImageFile, TheContentDecidesNotTheName) {
@@ -226,12 +224,15 @@ TEST(ImageFile, PnmOfEveryKind) {
     EXPECT_EQ(code_of([&] { first(bad); }), ExitCode::bad_input) << bad;
 }
 
-TEST(ImageFile, FloatTexturesAreClippedAndEncoded) {
+TEST(ImageFile, FloatTexturesStayFloatsAndAreShownClipped) {
   ScratchFolder folder;
   Image image{3, 1, {vec3(0.5f), vec3(-1, 7, std::nanf("")), vec3(0.2158605f)}};
   write_linear_image(image, folder / "a.exr");
-  auto texture = read_texture(folder / "a.exr");
-  EXPECT_EQ(texture->srgb, (std::vector<std::uint8_t>{188, 188, 188, 0, 255, 0, 128, 128, 128}));
+  auto texture = read_texels(folder / "a.exr");
+  const auto& floats = std::get<std::vector<float>>(texture->data);
+  ASSERT_EQ(floats.size(), 9u);
+  EXPECT_EQ(std::vector<float>(floats.begin() + 3, floats.begin() + 6), (std::vector<float>{-1, 7, 0}));
+  EXPECT_EQ(srgb8_texels(*texture), (std::vector<std::uint8_t>{188, 188, 188, 0, 255, 0, 128, 128, 128}));
 }
 
 TEST(ImageFile, ScreenshotsNeverOverwrite) {
@@ -239,7 +240,7 @@ TEST(ImageFile, ScreenshotsNeverOverwrite) {
   auto rgb = gradient(2, 2);
   EXPECT_EQ(write_srgb8_image_uniquely(2, 2, rgb, folder.path(), "shot"), folder / "shot.png");
   EXPECT_EQ(write_srgb8_image_uniquely(2, 2, rgb, folder.path(), "shot"), folder / "shot-2.png");
-  EXPECT_EQ(read_texture(folder / "shot-2.png")->srgb, rgb);
+  EXPECT_EQ(srgb8_texels(*read_texels(folder / "shot-2.png")), rgb);
 }
 
 TEST(ImageFile, WrongFormatsForAPictureAreUsageErrors) {
@@ -266,9 +267,8 @@ TEST(ImageTga, RowsAndColumnsRunAsItSays) {
                                                      {0x30, {2, 1, 0, 5, 4, 3}}};
   for (const auto& [descriptor, expected] : kCases) {
     test::write_text(folder / "a.tga", tga(descriptor));
-    const auto texture = read_texture(folder / "a.tga");
-    for (std::size_t i = 0; i < 6; ++i)
-      EXPECT_EQ(texture->srgb[3 * i], expected[i]) << descriptor << " " << i;
+    const auto texture = srgb8_texels(*read_texels(folder / "a.tga"));
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(texture[3 * i], expected[i]) << descriptor << " " << i;
   }
 }
 

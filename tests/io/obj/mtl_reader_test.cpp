@@ -2,11 +2,16 @@
 
 #include "io/obj/map_statement.h"
 #include "io/scene_files.h"
+#include "support/materials.h"
 
 #include <algorithm>
 
 namespace candela {
 namespace {
+
+using test::color;
+using test::number;
+using test::use_of;
 
 using test::SceneFiles;
 
@@ -58,14 +63,14 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(MtlReader, ScaleAndOffsetOfMapsReachTheMaterial) {
   files.write("t.png", test::tiny_png());
   const Material& m = material("map_Kd -s 2 3 1 -o 0.5 0.25 0 t.png\n");
-  EXPECT_EQ(m.diffuse_texture, 0);
-  EXPECT_EQ(m.diffuse_uv, (UvTransform{vec2(2, 3), vec2(0.5f, 0.25f)}));
+  EXPECT_EQ(use_of(m).texture, 0);
+  EXPECT_EQ(use_of(m).uv, (UvTransform{vec2(2, 3), vec2(0.5f, 0.25f)}));
   EXPECT_EQ(loaded.warnings.size(), 1u) << "no light, nothing else";
 }
 
 TEST_F(MtlReader, ContinuedLinesAreJoined) {
-  EXPECT_EQ(material("Kd 1 \\\n0 0.5\nKe 1 2 3\n").diffuse, vec3(1, 0, 0.5f));
-  EXPECT_EQ(material("Kd 1 \\\r\n0 0.5\r\nNonsense\r\n").diffuse, vec3(1, 0, 0.5f));
+  EXPECT_EQ(color(material("Kd 1 \\\n0 0.5\nKe 1 2 3\n"), "diffuse"), vec3(1, 0, 0.5f));
+  EXPECT_EQ(color(material("Kd 1 \\\r\n0 0.5\r\nNonsense\r\n"), "diffuse"), vec3(1, 0, 0.5f));
   EXPECT_TRUE(warned("1 x x.mtl:4:1: 'Nonsense' is ignored"));
 }
 
@@ -83,14 +88,14 @@ TEST_F(MtlReader, StatementsThatDoNotFitAreIgnoredAlone) {
                 {"map_Kd", "'map_Kd' is ignored: it names no file"},
                 {"map_Kd -s 1 1 1", "the texture '1' is missing"}};
   for (const auto& c : kCases) {
-    EXPECT_EQ(material(std::string("Kd 0.25 0.5 0.75\n") + c.statement + "\n").diffuse,
+    EXPECT_EQ(color(material(std::string("Kd 0.25 0.5 0.75\n") + c.statement + "\n"), "diffuse"),
               vec3(0.25f, 0.5f, 0.75f));
     EXPECT_TRUE(warned(std::string("1 x x.mtl:3:1: ") + c.warning)) << c.statement;
   }
   files.write("y.mtl", "Kd 1 1 1\nnewmtl\nKd 1 0 0\nnewmtl m\nKd 0 1 0\n");
   files.write("y.obj", "mtllib y.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
   loaded = files.read("y.obj");
-  EXPECT_EQ(loaded.document.scene.materials[0].diffuse, vec3(0, 1, 0));
+  EXPECT_EQ(color(loaded.document.scene.materials[0], "diffuse"), vec3(0, 1, 0));
   EXPECT_TRUE(warned("1 x y.mtl:1:1: 'Kd' is ignored: it stands before the first newmtl"));
   EXPECT_TRUE(warned("1 x y.mtl:2:1: newmtl without a name"));
 }
@@ -99,18 +104,18 @@ TEST_F(MtlReader, StatementsThatDoNotFitAreIgnoredAlone) {
 TEST_F(MtlReader, KsBesideKdIsTheHighlightOfAPlastic) {
   Material m =
       material("Ns 250\nKa 1 1 1\nKd 0.8 0.8 0.8\nKs 0.5 0.5 0.5\nKe 0 0 0\nNi 1.45\nd 1\nillum 2\n");
-  EXPECT_EQ(m.type, MaterialType::phong);
-  EXPECT_EQ(m.diffuse, vec3(0.8f));
-  EXPECT_FLOAT_EQ(m.specular.x, 0.04f);
-  EXPECT_EQ(m.exponent, 250);
+  EXPECT_EQ(material_type_name(m), "phong");
+  EXPECT_EQ(color(m, "diffuse"), vec3(0.8f));
+  EXPECT_FLOAT_EQ(color(m, "specular").x, 0.04f);
+  EXPECT_EQ(number(m, "exponent"), 250);
   m = material("Kd 0.6 0.6 0.6\nKs 1 1 1\nNs 0\nillum 2\n");
-  EXPECT_EQ(m.diffuse, vec3(0.6f));
+  EXPECT_EQ(color(m, "diffuse"), vec3(0.6f));
   m = material("Kd 1 1 1\nKs 1 1 1\nNs 10\n");
-  EXPECT_LE(m.diffuse.x + m.specular.x, 1) << "but no surface reflects more than it gets";
+  EXPECT_LE(color(m, "diffuse").x + color(m, "specular").x, 1) << "but no surface reflects more than it gets";
   EXPECT_TRUE(warned("1 x x.mtl:1:1: Kd leaves no room for the highlight"));
   m = material("Kd 0 0 0\nKs 0.9 0.7 0.3\nNs 100\nillum 2\n");
-  EXPECT_EQ(m.specular, vec3(0.9f, 0.7f, 0.3f)) << "a metal";
-  EXPECT_EQ(material("Kd 0.5 0.5 0.5\nKs 1 1 1\nillum 1\n").type, MaterialType::diffuse) << "no highlight";
+  EXPECT_EQ(color(m, "specular"), vec3(0.9f, 0.7f, 0.3f)) << "a metal";
+  EXPECT_EQ(material_type_name(material("Kd 0.5 0.5 0.5\nKs 1 1 1\nillum 1\n")), "diffuse") << "no highlight";
 }
 
 TEST_F(MtlReader, TexturesThatCannotBeReadAreLeftOut) {
@@ -124,8 +129,8 @@ TEST_F(MtlReader, TexturesThatCannotBeReadAreLeftOut) {
   for (const auto& [name, bytes] : kFiles) {
     files.write(name, bytes);
     const Material& m = material(std::string("Kd 1 0 0\nmap_Kd ") + name + "\n");
-    EXPECT_EQ(m.diffuse_texture, -1) << name;
-    EXPECT_EQ(m.diffuse, vec3(1, 0, 0));
+    EXPECT_EQ(use_of(m).texture, -1) << name;
+    EXPECT_EQ(color(m, "diffuse"), vec3(1, 0, 0));
     EXPECT_TRUE(warned("1 x x.mtl:3:1: no texture: ")) << name;
   }
 }
@@ -134,15 +139,15 @@ TEST_F(MtlReader, PathsOfOtherMachinesMeanTheFileBeside) {
   files.write("tex 1.png", test::tiny_png());
   for (const char* name : {"/home/user/project/tex 1.png", "C:\\Users\\me\\tex 1.png", "D:/maps/tex 1.png",
                            "\\\\server\\maps\\tex 1.png", "textures/tex 1.png", "TEX 1.PNG"}) {
-    EXPECT_EQ(material(std::string("map_Kd ") + name + "\n").diffuse_texture, 0) << name;
+    EXPECT_EQ(use_of(material(std::string("map_Kd ") + name + "\n")).texture, 0) << name;
     EXPECT_TRUE(
         warned("1 x x.mtl:2:1: map_Kd: '" + std::string(name) + "' is not there: 'tex 1.png' is taken"));
   }
   const std::string inside = files / "tex 1.png";
-  EXPECT_EQ(material("map_Kd " + inside + "\n").diffuse_texture, 0) << "absolute, but in the tree";
+  EXPECT_EQ(use_of(material("map_Kd " + inside + "\n")).texture, 0) << "absolute, but in the tree";
   EXPECT_EQ(loaded.warnings.size(), 1u);
-  EXPECT_EQ(material("map_Kd \"tex 1.png\"\n").diffuse_texture, 0);
-  EXPECT_EQ(material("map_Kd /etc/passwd\n").diffuse_texture, -1) << "nothing outside the tree";
+  EXPECT_EQ(use_of(material("map_Kd \"tex 1.png\"\n")).texture, 0);
+  EXPECT_EQ(use_of(material("map_Kd /etc/passwd\n")).texture, -1) << "nothing outside the tree";
   EXPECT_TRUE(warned("1 x x.mtl:2:1: the texture '/etc/passwd' is missing"));
   files.write("x.mtl", "newmtl m\nmap_Kd ../tex.png\n");
   EXPECT_TRUE(test::says(files.error("x.obj"), "x.mtl:2:1: map_Kd: ", {"outside"}));
@@ -150,12 +155,12 @@ TEST_F(MtlReader, PathsOfOtherMachinesMeanTheFileBeside) {
 
 TEST_F(MtlReader, ABlackKdDoesNotHideItsTexture) {
   files.write("t.png", test::tiny_png());
-  EXPECT_EQ(material("Kd 0 0 0\nmap_Kd t.png\n").diffuse, vec3(1));
+  EXPECT_EQ(color(material("Kd 0 0 0\nmap_Kd t.png\n"), "diffuse"), vec3(1));
   EXPECT_TRUE(warned("1 x x.mtl:1:1: Kd is black beside map_Kd"));
 }
 
 TEST_F(MtlReader, HowTfWasReadIsTold) {
-  EXPECT_EQ(material("Tf 1 1 1\nNi 1.5\nillum 7\n").transmittance, vec3(1));
+  EXPECT_EQ(color(material("Tf 1 1 1\nNi 1.5\nillum 7\n"), "transmittance"), vec3(1));
   EXPECT_EQ(loaded.warnings.size(), 1u);
   material("Tf 0.25 1 1\nNi 1.5\nillum 7\n");
   EXPECT_TRUE(warned("1 x x.mtl:1:1: material 'm': Tf 0.25 1 1 is read as transmittance of the whole body"));

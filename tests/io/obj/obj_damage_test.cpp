@@ -1,11 +1,14 @@
 // What is broken in an OBJ costs its own vertex, attribute or face, and is told of with its place.
 
 #include "io/scene_files.h"
+#include "support/materials.h"
 
 #include <algorithm>
 
 namespace candela {
 namespace {
+
+using test::color;
 
 using test::mesh_of;
 using test::SceneFiles;
@@ -113,14 +116,15 @@ TEST_F(ObjDamage, LinesEndInEveryWay) {
 TEST_F(ObjDamage, AMissingLibraryIsTheOneOfTheSameName) {
   files.write("x.mtl", "newmtl a\nKd 1 0 0\n");
   read("mtllib exported.mtl\n" + kQuad + "usemtl a\nf 1 2 3\n");
-  EXPECT_EQ(loaded.document.scene.materials[0].diffuse, vec3(1, 0, 0));
+  EXPECT_EQ(color(loaded.document.scene.materials[0], "diffuse"), vec3(1, 0, 0));
   EXPECT_TRUE(warned("1 x x.obj:1:1: the material library 'exported.mtl' is missing"));
   EXPECT_TRUE(warned("1 x x.obj:1:1: the material library of the mesh's own name is taken: 'x.mtl'"));
   read(kQuad + "usemtl a\nf 1 2 3\n");
-  EXPECT_EQ(loaded.document.scene.materials[0].diffuse, vec3(1, 0, 0)) << "none was named";
+  EXPECT_EQ(color(loaded.document.scene.materials[0], "diffuse"), vec3(1, 0, 0)) << "none was named";
   files.write("good.mtl", "newmtl b\nKd 0 1 0\n");
   read("mtllib good.mtl\n" + kQuad + "usemtl a\nf 1 2 3\n");
-  EXPECT_EQ(loaded.document.scene.materials[0].diffuse, vec3(0.5f)) << "but what is named is what is meant";
+  EXPECT_EQ(color(loaded.document.scene.materials[0], "diffuse"), vec3(0.5f))
+      << "but what is named is what is meant";
 }
 
 TEST_F(ObjDamage, LibrariesOfOtherMachinesAndBrokenOnes) {
@@ -128,7 +132,7 @@ TEST_F(ObjDamage, LibrariesOfOtherMachinesAndBrokenOnes) {
   for (const char* name : {"C:\\models\\My Lib.MTL", "/home/someone/My Lib.MTL", "my lib.mtl",
                            "\"My Lib.MTL\"", "export/My Lib.MTL"}) {
     read("mtllib " + std::string(name) + "\n" + kQuad + "usemtl a\nf 1 2 3\n");
-    EXPECT_EQ(loaded.document.scene.materials[0].diffuse, vec3(1, 0, 0)) << name;
+    EXPECT_EQ(color(loaded.document.scene.materials[0], "diffuse"), vec3(1, 0, 0)) << name;
   }
   files.write("broken.mtl", std::string("newmtl a\0\nKd 1 0 0\n", 18));
   read("mtllib broken.mtl\n" + kQuad + "usemtl a\nf 1 2 3\n");

@@ -1,10 +1,15 @@
 #include "io/scene_files.h"
+#include "support/materials.h"
 
 #include <algorithm>
 #include <fstream>
 
 namespace candela {
 namespace {
+
+using test::color;
+using test::number;
+using test::use_of;
 
 using test::mesh_of;
 using test::SceneFiles;
@@ -173,34 +178,34 @@ TEST_F(ObjReader, Caps) {
 TEST_F(ObjReader, MaterialTypes) {
   Material m = material("Kd 0.1 0.2 0.3\n");
   EXPECT_EQ(m.name, "x/m");
-  EXPECT_EQ(m.type, MaterialType::diffuse);
-  EXPECT_EQ(m.diffuse, vec3(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(material_type_name(m), "diffuse");
+  EXPECT_EQ(color(m, "diffuse"), vec3(0.1f, 0.2f, 0.3f));
   m = material("Kd 0.25\nKs 0 0 0\nillum 2\n");
-  EXPECT_EQ(m.type, MaterialType::diffuse);
-  EXPECT_EQ(m.diffuse, vec3(0.25f)) << "one number is a grey";
+  EXPECT_EQ(material_type_name(m), "diffuse");
+  EXPECT_EQ(color(m, "diffuse"), vec3(0.25f)) << "one number is a grey";
   m = material("Kd 0.5 0.5 0.5\nKs 0.25 0 0.5\nNs 33\nillum 2\n");
-  EXPECT_EQ(m.type, MaterialType::phong);
-  EXPECT_EQ(m.diffuse, vec3(0.5f));
-  EXPECT_EQ(m.specular, kPlasticSpecular * vec3(0.25f, 0, 0.5f)) << "the highlight of a plastic";
-  EXPECT_EQ(m.exponent, 33);
+  EXPECT_EQ(material_type_name(m), "phong");
+  EXPECT_EQ(color(m, "diffuse"), vec3(0.5f));
+  EXPECT_EQ(color(m, "specular"), kPlasticSpecular * vec3(0.25f, 0, 0.5f)) << "the highlight of a plastic";
+  EXPECT_EQ(number(m, "exponent"), 33);
   EXPECT_TRUE(warnings.back().find("nothing shines") != std::string::npos && warnings.size() == 1u)
       << warnings[0];
   m = material("Kd 0.01 0.01 0.01\nKs 0.95 0.95 0.95\nNs 1000\nillum 5\n");
-  EXPECT_EQ(m.type, MaterialType::mirror);
-  EXPECT_EQ(m.diffuse, vec3(0.01f));
-  EXPECT_EQ(m.specular, vec3(0.95f));
-  EXPECT_EQ(material("Ks 1 1 1\nillum 3\n").type, MaterialType::mirror);
+  EXPECT_EQ(material_type_name(m), "mirror");
+  EXPECT_EQ(color(m, "diffuse"), vec3(0.01f));
+  EXPECT_EQ(color(m, "specular"), vec3(0.95f));
+  EXPECT_EQ(material_type_name(material("Ks 1 1 1\nillum 3\n")), "mirror");
   for (const char* illum : {"4", "6", "7", "9"}) {
     m = material(std::string("Kd 0.01 0.01 0.01\nKs 0.3 0.3 0.3\nNi 2.5\nd 0\nTf 0.25 1 0.04\nillum ") +
                  illum + "\n");
-    EXPECT_EQ(m.type, MaterialType::dielectric);
-    EXPECT_EQ(m.ior, 2.5f);
+    EXPECT_EQ(material_type_name(m), "dielectric");
+    EXPECT_EQ(number(m, "ior"), 2.5f);
     EXPECT_EQ(m.opacity, 1) << "glass is not invisible";
-    EXPECT_LT(glm::length(m.transmittance - vec3(0.5f, 1, 0.2f)), 1e-6f)
+    EXPECT_LT(glm::length(color(m, "transmittance") - vec3(0.5f, 1, 0.2f)), 1e-6f)
         << "the root, as light crosses twice";
-    EXPECT_EQ(m.absorption, vec3(0));
+    EXPECT_EQ(color(m, "absorption"), vec3(0));
   }
-  EXPECT_EQ(material("Ni 1.5\nillum 7\n").transmittance, vec3(1)) << "no Tf";
+  EXPECT_EQ(color(material("Ni 1.5\nillum 7\n"), "transmittance"), vec3(1)) << "no Tf";
 }
 
 TEST_F(ObjReader, EmissionOpacityAndCorrections) {
@@ -212,14 +217,15 @@ TEST_F(ObjReader, EmissionOpacityAndCorrections) {
   EXPECT_EQ(material("Tr 0.25\n").opacity, 0.75f);
   EXPECT_EQ(material("Tr 1\nd 1\n").opacity, 1) << "d counts";
   m = material("Kd 0.486 0.631 0.05\nKs 0.9 0.9 0.9\nNs 40\nillum 3\n");
-  EXPECT_LT(glm::length(m.diffuse - vec3(0.1f, 0.1f, 0.05f)), 1e-6f);
+  EXPECT_LT(glm::length(color(m, "diffuse") - vec3(0.1f, 0.1f, 0.05f)), 1e-6f);
   EXPECT_EQ(warnings[0], "1 x x.mtl:1:1: Kd + Ks is above 1: the diffuse part is reduced to 1 - Ks");
   m = material("Kd 1.5 -1 0.5\n");
-  EXPECT_EQ(m.diffuse, vec3(1, 0, 0.5f));
+  EXPECT_EQ(color(m, "diffuse"), vec3(1, 0, 0.5f));
   EXPECT_EQ(warnings[0], "1 x x.mtl:1:1: Kd is out of range: clamped to [0, 1]");
-  EXPECT_EQ(material("Ka 1 1 1\nKd 0 0 0\nmap_bump b.png\nnorm n.png\nmap_bump c.png\n").diffuse, vec3(0));
+  EXPECT_EQ(color(material("Ka 1 1 1\nKd 0 0 0\nmap_bump b.png\nnorm n.png\nmap_bump c.png\n"), "diffuse"),
+            vec3(0));
   EXPECT_EQ(warnings[0], "2 x x.mtl:4:1: 'map_bump' is ignored");
-  EXPECT_EQ(material("illum 7\n").ior, 1.5f);
+  EXPECT_EQ(number(material("illum 7\n"), "ior"), 1.5f);
   EXPECT_EQ(warnings[0], "1 x x.mtl:1:1: glass without Ni: 1.5 is taken");
 }
 
@@ -228,15 +234,16 @@ TEST_F(ObjReader, Textures) {
   auto loaded = read(kTriangle, "newmtl m\nmap_Kd -clamp on tex\\a b.png\n");
   const SceneDesc& s = loaded.document.scene;
   ASSERT_EQ(s.textures.size(), 1u);
-  EXPECT_EQ(s.textures[0]->width, 2);
-  EXPECT_EQ(s.materials[0].diffuse_texture, 0);
-  EXPECT_EQ(s.materials[0].diffuse, vec3(1)) << "without Kd";
+  EXPECT_EQ(s.textures[0]->image()->texels->width, 2);
+  EXPECT_EQ(use_of(s.materials[0]).texture, 0);
+  EXPECT_EQ(color(s.materials[0], "diffuse"), vec3(1)) << "without Kd";
   EXPECT_EQ(files.warnings(loaded)[0], "1 x x.mtl:2:1: map_Kd: the option -clamp is ignored");
   EXPECT_EQ(
-      read(kTriangle, "newmtl m\nKd 0.5 0.5 0.5\nmap_Kd tex/a b.png\n").document.scene.materials[0].diffuse,
+      color(read(kTriangle, "newmtl m\nKd 0.5 0.5 0.5\nmap_Kd tex/a b.png\n").document.scene.materials[0],
+            "diffuse"),
       vec3(0.5f));
   loaded = read(kTriangle, "newmtl m\nmap_Kd none.png\n");
-  EXPECT_EQ(loaded.document.scene.materials[0].diffuse_texture, -1);
+  EXPECT_EQ(use_of(loaded.document.scene.materials[0]).texture, -1);
   EXPECT_EQ(files.warnings(loaded)[0], "1 x x.mtl:2:1: the texture 'none.png' is missing: no texture");
 }
 
@@ -251,7 +258,9 @@ TEST_F(ObjReader, SlotsAndLibraries) {
   EXPECT_EQ(mesh.material_slots, (std::vector<std::uint32_t>{0, 1, 2, 3, 1}));
   const auto& materials = loaded.document.scene.materials;
   const auto& used = loaded.document.scene.instances[0].materials;
-  auto diffuse = [&](std::size_t slot) { return materials[static_cast<std::size_t>(used[slot])].diffuse; };
+  auto diffuse = [&](std::size_t slot) {
+    return color(materials[static_cast<std::size_t>(used[slot])], "diffuse");
+  };
   EXPECT_EQ(diffuse(0), vec3(0.5f));
   EXPECT_EQ(diffuse(1), vec3(0, 0, 1));
   EXPECT_EQ(diffuse(2), vec3(0.5f));
@@ -265,9 +274,9 @@ TEST_F(ObjReader, SlotsAndLibraries) {
                 "1 x x.obj: there is no material 'c': a grey is taken",
                 "1 x x.obj: nothing shines: a constant light is added"}));
   files.write("my lib.mtl", "newmtl m\nKd 1 0 0\n");
-  EXPECT_EQ(read("mtllib my lib.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n")
-                .document.scene.materials[0]
-                .diffuse,
+  EXPECT_EQ(color(read("mtllib my lib.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n")
+                      .document.scene.materials[0],
+                  "diffuse"),
             vec3(1, 0, 0));
 }
 
@@ -276,7 +285,7 @@ TEST_F(ObjReader, NamesThatAreNoUtf8) {
                      "newmtl gr\xfcn\nKd 0 1 0\n");
   EXPECT_EQ(mesh_of(loaded).slot_names[0], "grün");
   EXPECT_EQ(loaded.document.scene.materials[0].name, "x/grün");
-  EXPECT_EQ(loaded.document.scene.materials[0].diffuse, vec3(0, 1, 0));
+  EXPECT_EQ(color(loaded.document.scene.materials[0], "diffuse"), vec3(0, 1, 0));
 }
 
 TEST_F(ObjReader, AloneItIsFramedAndLit) {

@@ -1,12 +1,15 @@
 #include "core/error.h"
 #include "io/obj/obj_writer.h"
 #include "io/scene_reader.h"
+#include "support/materials.h"
 #include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
 
 namespace candela {
 namespace {
+
+using test::color;
 
 Mesh folded_square() {
   Mesh mesh;
@@ -61,7 +64,7 @@ TEST(ObjWriter, NamesSlotsAndLibrary) {
   ASSERT_EQ(got.material_slots.size(), 2u);
   auto diffuse = [&](std::size_t triangle) {
     const auto material = static_cast<std::size_t>(instance.materials[got.material_slots[triangle]]);
-    return loaded.document.scene.materials[material].diffuse;
+    return color(loaded.document.scene.materials[material], "diffuse");
   };
   EXPECT_EQ(diffuse(0), vec3(0, 1, 0));
   EXPECT_EQ(diffuse(1), vec3(1, 0, 0));

@@ -167,9 +167,7 @@ TEST(DenoiserStatistical, LowersTheErrorOfARender) {
 Document mirror_before_wall() {
   SceneMaker s(16, 16, 4);
   Material mirror;
-  mirror.type = MaterialType::mirror;
-  mirror.diffuse = vec3(0);
-  mirror.specular = vec3(0.5f);
+  mirror.model = MirrorMaterial{vec3(0.5f)};
   int silver = s.material(mirror), red = s.diffuse(vec3(0.8f, 0.1f, 0.1f));
   s.rectangle(vec3(0), vec3(10, 0, 0), vec3(0, 10, 0), silver); // seen from +z
   s.rectangle(vec3(0, 0, 8), vec3(-10, 0, 0), vec3(0, 10, 0), red);

@@ -11,9 +11,7 @@ const vec3 kSigma(1, 0.5f, 0);
 
 int glass(SceneMaker& s, vec3 absorption, float ior = 1, float opacity = 1) {
   Material m;
-  m.type = MaterialType::dielectric;
-  m.ior = ior;
-  m.absorption = absorption;
+  m.model = DielectricMaterial{ior, vec3(1), absorption};
   m.opacity = opacity;
   return s.material(m);
 }

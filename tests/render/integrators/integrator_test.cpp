@@ -133,9 +133,9 @@ Document specular_world(int panes) {
   for (std::size_t i = 0; i < 6; ++i)
     s.document.scene.instances[i].materials = {s.diffuse(vec3(0), colors[i])};
   Material glass;
-  glass.type = MaterialType::dielectric;
-  glass.absorption = {0.2f, 0.1f, 0.4f};
-  glass.transmittance = {0.9f, 0.8f, 0.9f};
+  glass.model = DielectricMaterial();
+  color(glass, "absorption") = {0.2f, 0.1f, 0.4f};
+  color(glass, "transmittance") = {0.9f, 0.8f, 0.9f};
   int pane = s.material(glass);
   s.sphere({0.7f, 0, 0.5f}, 0.8f, pane);
   // Panes before the camera: more surfaces in a row than both branches are followed of.
@@ -143,8 +143,7 @@ Document specular_world(int panes) {
     vec3 x(i % 2 == 0 ? 1.9f : -1.9f, 0, 0);
     s.rectangle({0, 0, 2.6f - 0.12f * static_cast<float>(i)}, x, {0, 1.9f, 0}, pane);
   }
-  s.sphere({-0.9f, 0, 0}, 0.7f,
-           s.material(strategy_material(MaterialType::mirror, vec3(0), {0.9f, 0.8f, 0.7f})));
+  s.sphere({-0.9f, 0, 0}, 0.7f, s.material(strategy_material("mirror", vec3(0), {0.9f, 0.8f, 0.7f})));
   s.camera({0, 0.2f, 2.9f}, {0, 0, 0}, 70);
   return s.document;
 }

@@ -250,13 +250,13 @@ Document lamps() {
   int grey = s.diffuse(vec3(0.6f));
   s.closed_box({-3, 0, -3}, {3, 2.5f, 3}, grey);
   Material metal;
-  metal.type = MaterialType::ggx;
-  metal.roughness = 0.4f;
+  metal.model = GgxMaterial();
+  number(metal, "roughness") = 0.4f;
   s.sphere({0, 0.6f, 0}, 0.6f, s.material(metal));
   for (int i = 0; i < 40; ++i) {
     Material m;
-    m.diffuse = vec3(0.2f);
-    m.emission = {random(1, 9), random(1, 9), random(1, 9)};
+    color(m, "diffuse") = vec3(0.2f);
+    m.emission = vec3(random(1, 9), random(1, 9), random(1, 9));
     m.two_sided_emission = random.coin();
     int lamp = s.material(m);
     vec3 at(random(-2.8f, 2.8f), random(0.3f, 2.3f), random(-2.8f, 2.8f));

@@ -2,7 +2,6 @@
 
 #include "render/film/film_view.h"
 #include "render/render_testing.h"
-#include "render/world/texture_lookup.h"
 #include "sampling/filter.h"
 
 namespace {
@@ -206,25 +205,6 @@ TEST(FilterRender, PixelsWeighTheirNeighbourhoodByTheFilter) {
       EXPECT_NEAR(mean, exact, 2e-3) << static_cast<int>(filter) << ' ' << x << "; " << seed_note();
     }
   }
-}
-
-TEST(TextureLookup, BlendsLinearLightBetweenTexelCentres) {
-  Texture t;
-  t.width = 2, t.height = 2;
-  t.srgb = {255, 0, 0, 0, 255, 0, 0, 0, 255, 128, 128, 128};
-  float grey = linear_from_srgb(128 / 255.0f);
-  auto near = [](vec3 a, vec3 b) { return glm::length(a - b) < 1e-6f; };
-  EXPECT_PRED2(near, lookup_bilinear(t, {0.25f, 0.75f}), vec3(1, 0, 0)); // v = 1 is the top row
-  EXPECT_PRED2(near, lookup_bilinear(t, {0.75f, 0.75f}), vec3(0, 1, 0));
-  EXPECT_PRED2(near, lookup_bilinear(t, {0.25f, 0.25f}), vec3(0, 0, 1));
-  EXPECT_PRED2(near, lookup_bilinear(t, {0.75f, 0.25f}), vec3(grey));
-  EXPECT_PRED2(near, lookup_bilinear(t, {0.5f, 0.75f}), vec3(0.5f, 0.5f, 0));
-  EXPECT_PRED2(near, lookup_bilinear(t, {0, 0.75f}), vec3(0.5f, 0.5f, 0)); // repeats
-  EXPECT_PRED2(near, lookup_bilinear(t, {-3.75f, 5.75f}), vec3(1, 0, 0));
-  vec3 middle = 0.25f * (vec3(1, 1, 1) + vec3(grey));
-  EXPECT_PRED2(near, lookup_bilinear(t, {0.5f, 0.5f}), middle);
-  for (float bad : {NAN, INFINITY, -INFINITY, 1e30f, -1e-9f})
-    EXPECT_TRUE(is_finite(lookup_bilinear(t, {bad, bad})));
 }
 
 } // namespace

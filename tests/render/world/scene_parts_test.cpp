@@ -51,7 +51,7 @@ protected:
   }
   std::size_t emitting_material() const {
     std::size_t i = 0;
-    while (is_black(document_.scene.materials[i].emission)) ++i;
+    while (is_black(document_.scene.materials[i].emission.value)) ++i;
     return i;
   }
 
@@ -76,14 +76,14 @@ TEST_F(SceneParts, ALightsEditKeepsGeometryAndMaterials) {
 TEST_F(SceneParts, AMaterialsEditKeepsLightsUnlessItsEmissionChanged) {
   const std::size_t lamp = emitting_material(), wall = lamp == 0 ? 1 : 0;
   const Kept reflection{true, false, true}, emission{true, false, false};
-  EXPECT_EQ(kept([&](Document& d) { d.scene.materials[wall].diffuse *= 0.5f; }), reflection);
-  EXPECT_EQ(kept([&](Document& d) { d.scene.materials[wall].opacity = 0.5f; }), reflection);
-  EXPECT_EQ(kept([&](Document& d) { d.scene.materials[lamp].diffuse *= 0.5f; }), reflection);
-  EXPECT_EQ(kept([&](Document& d) { d.settings.override_brdf.brdf = BrdfOverride::mirror; }), reflection);
-  EXPECT_EQ(kept([&](Document& d) { d.scene.materials[lamp].emission *= 0.5f; }), emission);
-  EXPECT_EQ(kept([&](Document& d) { d.scene.materials[lamp].opacity = 0.5f; }), emission);
+  EXPECT_EQ(kept([&](Document& d) { color(d.scene.materials[wall], "diffuse") *= 0.5f; }), reflection);
+  EXPECT_EQ(kept([&](Document& d) { d.scene.materials[wall].opacity.value = 0.5f; }), reflection);
+  EXPECT_EQ(kept([&](Document& d) { color(d.scene.materials[lamp], "diffuse") *= 0.5f; }), reflection);
+  EXPECT_EQ(kept([&](Document& d) { apply_setting(d, "override.brdf=mirror"); }), reflection);
+  EXPECT_EQ(kept([&](Document& d) { d.scene.materials[lamp].emission.value *= 0.5f; }), emission);
+  EXPECT_EQ(kept([&](Document& d) { d.scene.materials[lamp].opacity.value = 0.5f; }), emission);
   EXPECT_EQ(kept([&](Document& d) { d.scene.materials[lamp].two_sided_emission = true; }), emission);
-  EXPECT_EQ(kept([&](Document& d) { d.scene.materials[wall].emission = vec3(1); }), emission);
+  EXPECT_EQ(kept([&](Document& d) { d.scene.materials[wall].emission.value = vec3(1); }), emission);
   EXPECT_EQ(kept([&](Document& d) { d.scene.materials.push_back(Material()); }), emission)
       << "another list of materials";
 }
@@ -98,12 +98,12 @@ TEST_F(SceneParts, WhatIsKeptIsWhatWouldBeBuilt) {
   const std::function<void(Document&)> edits[] = {
       [](Document& d) { d.scene.camera.position.x += 1; },
       [](Document& d) { d.scene.lights[0].color *= 0.5f; },
-      [&](Document& d) { d.scene.materials[wall].diffuse *= 0.5f; },
-      [&](Document& d) { d.scene.materials[lamp].emission *= 0.5f; },
-      [&](Document& d) { d.scene.materials[lamp].opacity = 0.5f; },
-      [](Document& d) { d.settings.override_brdf.brdf = BrdfOverride::ggx; },
+      [&](Document& d) { color(d.scene.materials[wall], "diffuse") *= 0.5f; },
+      [&](Document& d) { d.scene.materials[lamp].emission.value *= 0.5f; },
+      [&](Document& d) { d.scene.materials[lamp].opacity.value = 0.5f; },
+      [](Document& d) { apply_setting(d, "override.brdf=ggx"); },
       [](Document& d) { d.scene.instances[0].world_from_object[3].y += 1; },
-      [](Document& d) { d.settings.override_brdf.brdf = BrdfOverride::none; },
+      [](Document& d) { apply_setting(d, "override.brdf=none"); },
   };
   Document d = document_;
   std::shared_ptr<const RenderScene> scene = scene_;

@@ -202,13 +202,11 @@ TEST(TextureCoordinates, OfMeshesWithoutThemAreZeroWhateverElseIsThere) {
 /// A sphere whose texture has four colours, turned, seen from -y.
 Document quarters(const mat4& m, View view) {
   SceneMaker s(24, 24, 16);
-  auto texture = std::make_shared<Texture>();
-  texture->width = texture->height = 2;
-  texture->srgb = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255};
-  s.document.scene.textures.push_back(texture);
+  s.document.scene.textures.push_back(
+      picture_texture(2, 2, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}));
   Material mat;
-  mat.diffuse = vec3(0.8f);
-  mat.diffuse_texture = 0;
+  color(mat, "diffuse") = vec3(0.8f);
+  use_of(mat).texture = 0;
   s.document.scene.instances.push_back({"", SphereShape{}, m, {s.material(mat)}});
   s.constant_light(vec3(1));
   s.camera({0, -8, 0}, {0, 0, 0}, 18, {0, 0, 1});
