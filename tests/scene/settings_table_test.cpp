@@ -292,9 +292,4 @@ TEST(DocumentProblem, NamesWhatIsWrong) {
                  "instances[0].mesh");
 }
 
-TEST(SceneDesc, LightTypesUseTheirFieldsOnly) {
-  EXPECT_FALSE(light_uses(LightType::constant, "position"));
-  EXPECT_TRUE(light_uses(LightType::directional, "direction"));
-}
-
 } // namespace

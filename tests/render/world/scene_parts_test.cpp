@@ -27,14 +27,13 @@ protected:
   SceneParts() {
     test::SceneMaker s = cornell_flush(8, 8, 1, true);
     LightDesc lamp;
-    lamp.position = {278, 400, 279};
+    lamp.model = PointLightModel{.position = {278, 400, 279}};
     lamp.color = vec3(1e5f);
     s.document.scene.lights.push_back(lamp);
     LightDesc sky;
-    sky.type = LightType::environment;
     auto panorama = std::make_shared<Panorama>();
     panorama->image = {4, 2, std::vector<vec3>(8, vec3(0.5f))};
-    sky.panorama = panorama;
+    sky.model = EnvironmentLightModel{.panorama = panorama};
     s.document.scene.lights.push_back(sky);
     document_ = s.document;
     scene_ = RenderScene::build(document_);
@@ -68,7 +67,7 @@ TEST_F(SceneParts, ACameraMoveKeepsAll) {
 
 TEST_F(SceneParts, ALightsEditKeepsGeometryAndMaterials) {
   const Kept expected{true, true, false};
-  EXPECT_EQ(kept([](Document& d) { d.scene.lights[0].position.x += 1; }), expected);
+  EXPECT_EQ(kept([](Document& d) { light_position(d.scene.lights[0])->x += 1; }), expected);
   EXPECT_EQ(kept([](Document& d) { d.scene.lights.clear(); }), expected);
   EXPECT_EQ(kept([](Document& d) { d.settings.path.light_choice = LightChoiceBy::power; }), expected);
 }
