@@ -14,6 +14,7 @@ TEST(MediumStack, OfEqualPriorityTheLastEnteredFillsThePoint) {
   EXPECT_FALSE(in.current());
   in.enter(medium(3));
   in.enter(medium(5));
+  EXPECT_EQ(in.current(), medium(5));
   in.leave(medium(3)); // the other one first: they overlap
   EXPECT_EQ(in.current(), medium(5));
   in.leave(medium(4)); // was never entered

@@ -46,50 +46,45 @@ bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
 /// Rays between two polls of whether to stop: single ones may take milliseconds.
 constexpr std::size_t kRaysPerPoll = 16;
 
-/// hits_[i] becomes the closest hit of paths_[i], its t infinite where there is none; samplers go to the
-/// bounce.
+/// The closest hits. Where nothing lies between surfaces that could let light through or take some of it
+/// away, the paths are divided at once; else hits_[i] becomes that of paths_[i], its t infinite where there
+/// is none.
 void PathTracer::intersect(int depth, StopPoll& stop) {
   const Accel& accel = scene_.geometry().accel();
+  const bool passes = passes_media();
   hits_.resize(paths_.size());
+  arrived_.clear();
+  escaped_.clear();
   counts_.closest += paths_.size();
-  if (depth == 1) { // camera rays are coherent: faster together
+  const bool coherent = depth == 1; // camera rays: faster together
+  if (coherent) {
     rays_.clear();
-    for (Path& path : paths_) {
-      path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
-      rays_.push_back(&path.ray);
-    }
+    for (const Path& path : paths_) rays_.push_back(&path.ray);
     accel.intersect(rays_, hits_);
-    return;
   }
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     if (i % kRaysPerPoll == 0 && stop.asked()) return;
     Path& path = paths_[i];
     path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
-    if (!accel.intersect(path.ray, hits_[i])) hits_[i].t = kInfinity;
+    Hit& hit = hits_[passes ? i : arrived_.size()]; // at i or before
+    if (coherent) hit = hits_[i];
+    const bool met = coherent ? hit.t < kInfinity : accel.intersect(path.ray, hit);
+    if (!passes)
+      divide(path, met);
+    else if (!met)
+      hit.t = kInfinity;
   }
 }
 
-/// Divides the paths into those that arrive at a surface and those that escape.
+/// Through transparent surfaces and media: divides the paths where intersect() has not.
 void PathTracer::sample_media(StopPoll& stop) {
-  const std::size_t count = paths_.size();
-  const bool passes = scene_.has_transparency() || scene_.has_media();
-  arrived_.resize(count);
-  escaped_.resize(count);
-  std::size_t arrived = 0, escaped = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    bool met = hits_[i].t < kInfinity;
-    if (passes) {
-      if (i % kRaysPerPoll == 0 && stop.asked()) break;
-      met = pass_media(i, met, hits_[i]);
-    }
-    // Which of both cannot be predicted, so there is no branch.
-    hits_[arrived] = hits_[i];
-    arrived_[arrived] = escaped_[escaped] = &paths_[i];
-    arrived += met ? 1 : 0;
-    escaped += met ? 0 : 1;
+  if (!passes_media()) return;
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    if (i % kRaysPerPoll == 0 && stop.asked()) return;
+    Hit& hit = hits_[arrived_.size()]; // at i or before
+    hit = hits_[i];
+    divide(paths_[i], pass_media(i, hit.t < kInfinity, hit));
   }
-  arrived_.resize(arrived);
-  escaped_.resize(escaped);
 }
 
 /// Whether the ray of paths_[index] ends at a surface, given its closest hit, and what is left of its light
@@ -235,18 +230,18 @@ void PathTracer::sample_lights(std::size_t begin, int depth, StopPoll& stop) {
 /// A direction for each scattering vertex, and what becomes of it: directions_, continuation_. Vertices that
 /// split have one more for each branch; false where none has so many.
 bool PathTracer::sample_bsdfs(std::uint32_t branch, int depth) {
+  Lanes<const ScatteringVertex*> from;
   Lanes<Sampler::Draw> draws;
-  std::size_t count = 0;
+  std::size_t count = 0, sampled = 0;
   branched_.clear();
   for (const ScatteringVertex& vertex : scattering_) {
     const auto branches = static_cast<std::uint32_t>(vertex.branches);
     if (branch >= branches) continue;
     const Sampler& own = vertex.path->sampler;
     const Sampler* sampler = branches > 1 ? &branched_.emplace_back(own.branch(branch, branches)) : &own;
-    directions_[count] = {&vertex, sampler, vertex.lane, 0, false};
+    from[count] = &vertex;
     draws[count++] = {sampler, 0};
   }
-  direction_count_ = 0;
   if (count == 0) return false;
   Lanes<vec2> disc;
   Lanes<float> lobe_u{}, roulette_u;
@@ -257,21 +252,19 @@ bool PathTracer::sample_bsdfs(std::uint32_t branch, int depth) {
   sample_uniform_discs({disc.data(), count});
 
   for (std::size_t k = 0; k < count; ++k) {
-    SampledDirection direction = directions_[k];
-    const ScatteringVertex& vertex = *direction.vertex;
-    const std::uint32_t i = direction.lane;
+    const ScatteringVertex& vertex = *from[k];
+    const std::uint32_t i = vertex.lane;
     auto s = sample_direction(vertices_.bsdf(i), vertices_.wo_local[i], {disc[k], lobe_u[k]},
                               settings_.direction_sampling);
     if (!s) continue;
     const auto branches = static_cast<float>(vertex.branches);
-    direction.bsdf_pdf = s->pdf * branches;
-    direction.delta = s->delta;
-    directions_[direction_count_++] = direction; // at k or before
+    directions_[sampled++] = {&vertex, draws[k].sampler, i, s->pdf * branches, s->delta};
     continuation_.wi_local.set(i, s->wi);
     continuation_.throughput.set(i, vertex.path->throughput / branches * s->weight);
     continuation_.eta_scale[i] = vertex.path->eta_scale * branches * sqr(s->eta);
     continuation_.u[i] = roulette_u[k];
   }
+  direction_count_ = sampled;
   continuation_.folds.fill(0);
   if (!is_diffuse(scattering_flags_)) fold_directions();
   continuation_.compute(vertices_, Roulette::at(settings_, depth));

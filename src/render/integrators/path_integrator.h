@@ -23,7 +23,7 @@ struct PathStart {
 /// Traces paths many at a time, one segment of all of them after the other (Laine et al. 2013, "Megakernels
 /// Considered Harmful"). For each segment, the stages are:
 /// - intersect: the closest hits;
-/// - sample_media: through transparent surfaces and media to a surface, or out of the scene;
+/// - sample_media: through transparent surfaces and media, to a surface or out of the scene;
 /// - add_environment, for paths that escaped, and add_emission, for those that hit a surface;
 /// - at the surface vertices: sample_lights, then sample_bsdfs, Russian roulette and continuation rays.
 /// A stage is a loop over paths that know nothing of each other, so the vector unit makes random numbers and
@@ -92,7 +92,10 @@ private:
   void fold_directions();
   void continue_paths();
 
+  /// Whether light may pass surfaces or fade between them.
+  bool passes_media() const { return scene_.has_transparency() || scene_.has_media(); }
   bool pass_media(std::size_t path, bool met, Hit& hit);
+  void divide(Path& path, bool arrives) { (arrives ? arrived_ : escaped_).push_back(&path); }
   void set_light_context(std::size_t lane, const Bsdf& bsdf, BsdfFlags flags);
   MediumStack& media_of(const Path& path) { return media_[static_cast<std::size_t>(&path - paths_.data())]; }
   void add_escaped(const Path& path, std::uint32_t light, Spectrum radiance, float pdf, int depth);
@@ -111,7 +114,7 @@ private:
   /// Of their rays, parallel to them; in scenes with media alone.
   std::vector<MediumStack> media_, next_media_;
   std::vector<const Ray*> rays_; ///< of the paths, where they are traced together
-  std::vector<Hit> hits_;        ///< of the paths; from sample_media on, parallel to arrived_
+  std::vector<Hit> hits_;        ///< of the paths; once these are divided, parallel to arrived_
   std::vector<Path*> escaped_;
   std::vector<EnvironmentMap::Place> places_; ///< parallel to escaped_
   std::vector<Path*> arrived_;                ///< at a surface
