@@ -39,6 +39,9 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
   scene->instances_ = same_geometry ? previous->instances_
                                     : std::make_shared<const std::vector<Instance>>(document.scene.instances);
   scene->materials_ = SceneMaterials::of(document, previous != nullptr ? previous->materials_ : nullptr);
+  scene->surfaces_ = scene->materials_->data();
+  scene->has_transparency_ = scene->materials_->has_transparency();
+  scene->has_media_ = !scene->materials_->media().empty();
   scene->lights_ = SceneLights::of(document, scene->geometry_, scene->materials_,
                                    previous != nullptr ? previous->lights_ : nullptr, progress);
   return scene;

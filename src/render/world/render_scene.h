@@ -22,11 +22,11 @@ public:
   const std::shared_ptr<const SceneMaterials>& shared_materials() const { return materials_; }
   const std::shared_ptr<const SceneLights>& shared_lights() const { return lights_; }
   const Geometry& geometry() const { return *geometry_; }
-  const SurfaceMaterial& material(std::uint32_t index) const { return (*materials_)[index]; }
+  const SurfaceMaterial& material(std::uint32_t index) const { return surfaces_[index]; }
   /// Whether any surface lets light straight through, so that rays must look.
-  bool has_transparency() const { return materials_->has_transparency(); }
+  bool has_transparency() const { return has_transparency_; }
   /// Whether any body is filled with something, so that rays must know where they are.
-  bool has_media() const { return !materials_->media().empty(); }
+  bool has_media() const { return has_media_; }
   const Medium& medium(MediumId id) const { return materials_->media()[id.index]; }
 
   const std::vector<Light>& lights() const { return lights_->lights(); }
@@ -50,6 +50,9 @@ private:
   std::shared_ptr<const std::vector<Instance>> instances_; ///< what geometry_ was built from
   std::shared_ptr<const SceneMaterials> materials_;
   std::shared_ptr<const SceneLights> lights_;
+  // Of *materials_, where every ray reads them.
+  const SurfaceMaterial* surfaces_ = nullptr;
+  bool has_transparency_ = false, has_media_ = false;
 };
 
 } // namespace candela

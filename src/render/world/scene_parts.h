@@ -25,6 +25,8 @@ public:
   const SurfaceMaterial& operator[](std::size_t i) const { return materials_[i]; }
   auto begin() const { return materials_.begin(); }
   auto end() const { return materials_.end(); }
+  /// Null where there are none.
+  const SurfaceMaterial* data() const { return begin() == end() ? nullptr : &*begin(); }
   bool has_transparency() const { return has_transparency_; }
   const std::vector<Medium>& media() const { return media_; }
   std::size_t memory_bytes() const;
