@@ -196,8 +196,8 @@ inline std::vector<NamedScene> strategy_scenes() {
           {"instances, texture, screen", instances_scene()},
           {"sky, sun and lamp", sky_sun_and_lamp_scene()},
           {"environment and spot", environment_scene()},
-          {"textured lamps", textured_lamps_scene()},
-          {"coarse smooth gloss", smooth_gloss_scene()}};
+          {"coarse smooth gloss", smooth_gloss_scene()},
+          {"textured lamps", textured_lamps_scene()}};
 }
 
 } // namespace candela::test

@@ -14,10 +14,10 @@ namespace {
 constexpr std::string_view kPrefix = "material.", kSuffix = ".texture";
 
 ImU32 shown(vec3 linear) {
-  ivec3 byte(0);
-  for (int c = 0; c < 3; ++c)
-    byte[c] = static_cast<int>(255 * srgb_from_linear(std::clamp(linear[c], 0.0f, 1.0f)) + 0.5f);
-  return IM_COL32(byte.x, byte.y, byte.z, 255);
+  auto byte = [](float x) {
+    return static_cast<int>(255 * srgb_from_linear(std::clamp(x, 0.0f, 1.0f)) + 0.5f);
+  };
+  return IM_COL32(byte(linear.x), byte(linear.y), byte(linear.z), 255);
 }
 
 /// The texture over [0, 1]^2 in a few squares: enough to know it by, and no memory of the graphics driver.

@@ -255,6 +255,25 @@ void Viewer::look_for_changes() {
   };
   if (std::ranges::none_of(changed, is_the_scenes)) {
     read_panoramas_again(changed);
+    // Textures that were dropped on the scene, likewise.
+    for (const auto& texture : state_.document.scene.textures) {
+      const ImageTexture* image = texture->image();
+      if (image == nullptr || !changed.contains(image->source)) continue;
+      reader_.post([this, texture, source = image->source]() -> TaskThread::Completion {
+        try {
+          WarningList corrections;
+          const auto fresh = std::make_shared<const Texture>(
+              Texture{texture->name, ImageTexture{source, read_texels(source, corrections)}});
+          return [this, texture, fresh] {
+            for (auto& known : state_.document.scene.textures)
+              if (known == texture) known = fresh, state_.edited = true;
+            notify(fmt::format("{} was read again", fresh->name));
+          };
+        } catch (const std::exception& error) {
+          return [this, problem = std::string(error.what())] { state_.error = problem; };
+        }
+      });
+    }
     return;
   }
   if (scene_->path.empty()) return;
