@@ -274,7 +274,7 @@ std::vector<Field<Document>> override_rows() {
     for (auto address : {override_value<I>...}) {
       FieldInfo row = material_choice_fields()[out.size() - 1];
       row.key = texts.emplace_back(fmt::format("override.{}", row.key));
-      row.help = texts.emplace_back(fmt::format("{}, of the override", row.help));
+      row.help = texts.emplace_back(fmt::format("Of the override: {}", row.help));
       out.push_back({row, address});
     }
   }

@@ -36,7 +36,7 @@ inline Document test_document() {
   const int green = material("green", {0.14f, 0.45f, 0.091f});
   const int lamp = material("lamp", vec3(0.78f));
   const int ball = material("ball", vec3(0.2f));
-  scene.materials[static_cast<std::size_t>(lamp)].emission = vec3(17, 12, 5);
+  scene.materials[static_cast<std::size_t>(lamp)].emission = vec3{17, 12, 5};
   Material& gloss = scene.materials[static_cast<std::size_t>(ball)];
   gloss.model = PhongMaterial{vec3(0.2f), vec3(0.6f)};
   const vec3 x(1, 0, 0), y(0, 1, 0);

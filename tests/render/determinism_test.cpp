@@ -153,7 +153,7 @@ SceneMaker overflowing() {
   SceneMaker s(19, 17, 1);
   Material m;
   m.model = MirrorMaterial();
-  m.emission = vec3(3e38f, 0, 0);
+  m.emission = vec3{3e38f, 0, 0};
   int mat = s.material(m);
   s.rectangle({0, 0, 0}, {0, 0.01f, 0}, {0.01f, 0, 0}, mat);  // facing -z, the camera's way
   s.rectangle({0, 0, -1}, {0.01f, 0, 0}, {0, 0.01f, 0}, mat); // facing it

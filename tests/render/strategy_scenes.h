@@ -68,7 +68,7 @@ inline Document instances_scene() {
   Material screen;
   color(screen, "diffuse") = vec3(0.5f);
   screen.opacity = 0.5f;
-  screen.emission = vec3(1, 0.5f, 0.2f);
+  screen.emission = vec3{1, 0.5f, 0.2f};
   screen.two_sided_emission = true;
   s.rectangle({0, 0.8f, 0.5f}, {0.3f, 0, 0}, {0, 0.8f, 0}, s.material(screen));
   s.camera({0, 3, 5}, {0, 0.5f, 0}, 40);
@@ -151,6 +151,36 @@ inline Document smooth_gloss_scene() {
   return s.document;
 }
 
+/// Lamps of every kind that shine as a picture or a checker shows, one of them full of holes.
+inline Document textured_lamps_scene() {
+  SceneMaker s(8, 8, 1);
+  auto texels = std::make_shared<const Texels>(
+      Texels{2, 2, 3, std::vector<float>{9, 0.5f, 0, 0, 3, 1, 0.2f, 0.2f, 6, 2, 2, 2}});
+  s.document.scene.textures.push_back(
+      std::make_shared<const Texture>(Texture{"", ImageTexture{"", std::move(texels)}}));
+  s.document.scene.textures.push_back(
+      std::make_shared<const Texture>(Texture{"", CheckerTexture{{5, 4, 1}, vec3(0.5f), 4}}));
+  auto lamp = [&](int texture, float factor) {
+    Material m = strategy_material("diffuse", vec3(0.3f), vec3(0));
+    m.emission = vec3(factor);
+    m.emission.use.texture = texture;
+    return m;
+  };
+  const int floor = s.material(strategy_material("ggx", vec3(0), {0.9f, 0.8f, 0.7f}));
+  s.rectangle({0, 0, 0}, {0, 0, 3}, {3, 0, 0}, floor);
+  s.rectangle({0, 1.4f, -1.5f}, {1.5f, 0, 0}, {0, 1.2f, 0}, s.material(lamp(0, 1)));
+  s.sphere({1.4f, 0.8f, 0.5f}, 0.5f, s.material(lamp(1, 1)));
+  s.disc({-1.4f, 1.6f, 0.3f}, 0.6f, {0, 0, 1}, {0.6f, 0.8f, 0}, s.material(lamp(0, 1.5f)));
+  Material holes = lamp(1, 0.6f);
+  holes.two_sided_emission = true;
+  holes.opacity.use.texture = 1;
+  holes.opacity.value = 0.2f;
+  holes.opacity.use.uv.scale = vec2(0.7f);
+  s.rectangle({0, 1, 1}, {0.6f, 0, 0.2f}, {0, 0.6f, 0}, s.material(holes));
+  s.camera({0, 3, 5}, {0, 0.5f, 0}, 40);
+  return s.document;
+}
+
 inline std::vector<NamedScene> strategy_scenes() {
   Document cornell = cornell_flush(8, 8, 1, true).document;
   return {{"Cornell box with blocks", cornell},
@@ -160,7 +190,8 @@ inline std::vector<NamedScene> strategy_scenes() {
           {"instances, texture, screen", instances_scene()},
           {"sky, sun and lamp", sky_sun_and_lamp_scene()},
           {"environment and spot", environment_scene()},
-          {"coarse smooth gloss", smooth_gloss_scene()}};
+          {"coarse smooth gloss", smooth_gloss_scene()},
+          {"textured lamps", textured_lamps_scene()}};
 }
 
 } // namespace candela::test

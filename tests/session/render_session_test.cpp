@@ -111,7 +111,7 @@ TEST(RenderSession, EmissionEditRebuildsLights) {
   RenderSession session;
   Document d = small_cornell();
   ASSERT_TRUE(shows(session, d));
-  d.scene.materials[0].emission = vec3(0.5f);
+  d.scene.materials[0].emission = vec3{0.5f, 0.5f, 0.5f};
   LightDesc bulb;
   bulb.model = PointLightModel{.position = {278, 273, 279}};
   bulb.color = vec3(1e5f);

@@ -86,6 +86,11 @@ int run_info(const SceneOptions& options) {
   out["rectangles"] = geometry.rectangles().size();
   out["discs"] = geometry.discs().size();
   out["materials"] = desc.materials.size();
+  out["material_types"] = nlohmann::ordered_json::object();
+  for (const Material& material : desc.materials) {
+    auto& count = out["material_types"][std::string(material_type_name(material))];
+    count = count.is_null() ? 1 : count.get<int>() + 1;
+  }
   out["textures"] = desc.textures.size();
   Bounds3 bounds = geometry.bounds();
   if (bounds.empty())

@@ -1,6 +1,7 @@
 // The panels of what is in the scene, and of which scene it is.
 
 #include "app/panels/panel_list.h"
+#include "app/panels/texture_picker.h"
 #include "app/ui/item_list.h"
 
 #include <fmt/format.h>
@@ -104,7 +105,7 @@ void materials_panel(Ui& ui, ViewerState& state) {
   for (const MaterialField& row : material_fields(material)) {
     FieldContext context;
     context.initial = initial_of(row, state.home.scene.materials, material, index);
-    state.edited |= ui.field(fmt::format("material.{}", row.key), row, row.address(material), context);
+    material_field(ui, state, index, row, context);
   }
   ImGui::PopID();
 }

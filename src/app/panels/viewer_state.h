@@ -31,6 +31,12 @@ enum class Question { none, quit, reload, replace };
 /// What an error is about: it goes when that succeeds, is tried again or is given up.
 enum class ErrorCause { none, open, save, picture, camera, render, preferences };
 
+/// A parameter of a material that is to have a texture.
+struct TextureTarget {
+  std::size_t material = 0; ///< index into SceneDesc::materials
+  std::string key;
+};
+
 struct ViewerState {
   Document document;   ///< what the user sees and edits
   Document home;       ///< as it was loaded: what the camera, materials and lights are reset to

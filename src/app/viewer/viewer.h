@@ -157,6 +157,7 @@ private:
   void open_scene(const std::vector<std::string>& paths, bool reload);
   void finish_opening(const Dropped& chosen, LoadedScene& loaded, const Bounds3& bounds, bool reload);
   void take_dropped(const std::vector<std::string>& paths);
+  void read_texture(const std::string& path, const TextureTarget& target);
   void cancel_opening();
   void cancel_building();
   void look_for_changes();

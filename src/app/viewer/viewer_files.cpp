@@ -1,5 +1,6 @@
 // Opening and watching scenes, beside the UI thread. Saving is in viewer_saving.cpp.
 
+#include "app/panels/texture_picker.h"
 #include "app/ui/typed_number.h"
 #include "app/viewer/dropped_files.h"
 #include "app/viewer/picture_saver.h"
@@ -10,10 +11,12 @@
 #include "io/files/text_file.h"
 #include "io/images/image_file.h"
 #include "io/images/panorama_reader.h"
+#include "io/images/texels_reader.h"
 #include "io/picture_state.h"
 #include "scene/scene_files.h"
 
 #include <fmt/format.h>
+#include <imgui.h>
 
 #include <set>
 #include <utility>
@@ -57,7 +60,33 @@ void Viewer::light_with(std::shared_ptr<const Panorama> panorama, const FileStam
 }
 
 void Viewer::take_dropped(const std::vector<std::string>& paths) {
-  if (!paths.empty()) state_.open_paths = paths;
+  if (paths.empty()) return;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const std::string key = parameter_at(ui_.widgets(), vec2(mouse.x, mouse.y));
+  if (!key.empty() && paths.size() == 1 && is_image_name(paths.front()))
+    read_texture(paths.front(), {static_cast<std::size_t>(state_.selected_material), key});
+  else
+    state_.open_paths = paths;
+}
+
+void Viewer::read_texture(const std::string& path, const TextureTarget& target) {
+  state_.settle(ErrorCause::open);
+  reader_.post([this, path, target]() -> TaskThread::Completion {
+    try {
+      const FileStamps stamps{{path, file_stamp(path)}};
+      WarningList corrections; // as of a panorama
+      auto texture = std::make_shared<const Texture>(
+          Texture{fs::path(path).filename().string(), ImageTexture{path, read_texels(path, corrections)}});
+      return [this, path, target, texture, stamps] {
+        set_parameter_texture(state_.document.scene, target, texture);
+        state_.edited = true;
+        watch_files(stamps);
+        notify(fmt::format("{} is the texture of {}", path, target.key));
+      };
+    } catch (const std::exception& error) {
+      return [this, problem = std::string(error.what())] { state_.fail(ErrorCause::open, problem); };
+    }
+  });
 }
 
 void Viewer::open_scene(const std::vector<std::string>& paths, bool reload) {
@@ -227,6 +256,25 @@ void Viewer::look_for_changes() {
   };
   if (std::ranges::none_of(changed, is_the_scenes)) {
     read_panoramas_again(changed);
+    // Textures that were dropped on the scene, likewise.
+    for (const auto& texture : state_.document.scene.textures) {
+      const ImageTexture* image = texture->image();
+      if (image == nullptr || !changed.contains(image->source)) continue;
+      reader_.post([this, texture, source = image->source]() -> TaskThread::Completion {
+        try {
+          WarningList corrections;
+          const auto fresh = std::make_shared<const Texture>(
+              Texture{texture->name, ImageTexture{source, read_texels(source, corrections)}});
+          return [this, texture, fresh] {
+            for (auto& known : state_.document.scene.textures)
+              if (known == texture) known = fresh, state_.edited = true;
+            notify(fmt::format("{} was read again", fresh->name));
+          };
+        } catch (const std::exception& error) {
+          return [this, problem = std::string(error.what())] { state_.error = problem; };
+        }
+      });
+    }
     return;
   }
   if (scene_->path.empty()) return;

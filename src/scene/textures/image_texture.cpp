@@ -47,11 +47,15 @@ struct TexelReader {
     if (channels == 1) return vec4(first, first, first, 1);
     return vec4(first, decode(values[at + 1]), decode(values[at + 2]), alpha(at));
   }
+  /// Of pictures in colour.
+  vec3 rgb(std::size_t texel_index) const {
+    const std::size_t at = texel_index * channels;
+    return {decode(values[at]), decode(values[at + 1]), decode(values[at + 2])};
+  }
   vec3 color(std::size_t texel_index) const {
     const std::size_t at = texel_index * channels;
     if (channel != TextureChannel::rgb) return vec3(number(texel_index));
-    if (channels == 1) return vec3(decode(values[at]));
-    return {decode(values[at]), decode(values[at + 1]), decode(values[at + 2])};
+    return channels == 1 ? vec3(decode(values[at])) : rgb(texel_index);
   }
   float number(std::size_t texel_index) const {
     const std::size_t at = texel_index * channels;
@@ -125,6 +129,9 @@ auto filtered(const Texels& texels, const TextureUse& use, vec2 uv, Texel texel)
 
 vec3 ImageTexture::color(const TextureUse& use, vec2 uv) const {
   return with_reader(*texels, use, [&](const auto& reader) {
+    // What most textures are, without a question for each texel.
+    if (texels->channels >= 3 && use.channel == TextureChannel::rgb)
+      return filtered(*texels, use, uv, [&](std::size_t i) { return reader.rgb(i); });
     return filtered(*texels, use, uv, [&](std::size_t i) { return reader.color(i); });
   });
 }

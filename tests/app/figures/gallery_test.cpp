@@ -136,7 +136,7 @@ TEST(GalleryRender, APlainPictureIsTheRendersOwn) {
   const auto written = read_texels(gallery.folder / "out/plain.png");
   EXPECT_EQ(written->width, 24);
   EXPECT_EQ(written->height, 20);
-  EXPECT_EQ(written->srgb, displayed_srgb8(result.film.image(), document.settings.display,
+  EXPECT_EQ(srgb8_texels(*written), displayed_srgb8(result.film.image(), document.settings.display,
                                            document.settings.view, result.display_scale));
 }
 

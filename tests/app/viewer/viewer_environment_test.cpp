@@ -5,8 +5,6 @@
 
 namespace {
 
-using test::color;
-
 using namespace candela;
 using namespace candela::test;
 

@@ -96,6 +96,7 @@ TEST(StrategyStatistical, InstancesTextureAndScreen) { expect_one_expectation(st
 TEST(StrategyStatistical, SkySunAndLamp) { expect_one_expectation(strategy_scenes()[5], 512); }
 TEST(StrategyStatistical, EnvironmentAndSpot) { expect_one_expectation(strategy_scenes()[6], 512); }
 TEST(StrategyStatistical, CoarseSmoothGloss) { expect_one_expectation(strategy_scenes()[7], 1024); }
+TEST(StrategyStatistical, TexturedLamps) { expect_one_expectation(strategy_scenes()[8], 512); }
 
 /// Everything with everything.
 void expect_all_combinations_agree(const NamedScene& scene) {
@@ -125,6 +126,7 @@ TEST(StrategyHeavy, InstancesTextureAndScreen) { expect_all_combinations_agree(s
 TEST(StrategyHeavy, SkySunAndLamp) { expect_all_combinations_agree(strategy_scenes()[5]); }
 TEST(StrategyHeavy, EnvironmentAndSpot) { expect_all_combinations_agree(strategy_scenes()[6]); }
 TEST(StrategyHeavy, CoarseSmoothGloss) { expect_all_combinations_agree(strategy_scenes()[7]); }
+TEST(StrategyHeavy, TexturedLamps) { expect_all_combinations_agree(strategy_scenes()[8]); }
 
 TEST(StrategyStatistical, RouletteKeepsTheMeanOfUnlimitedPaths) {
   Document d = mirror_and_glass_scene();

@@ -256,7 +256,7 @@ Document lamps() {
   for (int i = 0; i < 40; ++i) {
     Material m;
     color(m, "diffuse") = vec3(0.2f);
-    m.emission = vec3(random(1, 9), random(1, 9), random(1, 9));
+    m.emission = vec3{random(1, 9), random(1, 9), random(1, 9)};
     m.two_sided_emission = random.coin();
     int lamp = s.material(m);
     vec3 at(random(-2.8f, 2.8f), random(0.3f, 2.3f), random(-2.8f, 2.8f));

@@ -3,6 +3,7 @@
 
 #include "render/camera/picking.h"
 #include "render/render_testing.h"
+#include "support/textures.h"
 
 namespace {
 

@@ -101,7 +101,6 @@ TEST_F(TextureTransform, OpacityAndEmissionAreLookedUpWhereTheyAreTextured) {
   EXPECT_EQ(opacity_at(s, [] { return vec2(0.25f, 0); }), 0);
   EXPECT_EQ(opacity_at(s, [] { return vec2(0.75f, 0); }), 1);
   EXPECT_EQ(emission_at(s, [] { return vec2(0.75f, 0); }), vec3(0, 8, 0));
-  const SurfaceMaterial constant = materials[0];
   Material plain;
   materials = {};
   auto never = []() -> vec2 { throw std::logic_error("asked for a constant"); };
