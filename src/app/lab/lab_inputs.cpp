@@ -23,7 +23,7 @@ Material lab_material() {
 }
 
 bool scattering_uses(MaterialType type, std::string_view key) {
-  // These are of every type or of the inside: a BSDF knows nothing of them.
+  // These are of every type or of the inside: a closure does not have them.
   for (std::string_view other : {"absorption", "opacity", "emission", "two_sided_emission"})
     if (key == other) return false;
   return material_uses(type, key);
