@@ -9,7 +9,7 @@ namespace {
 
 TEST(ReadmeWindowHeavy, LeavesAConvergedPicture) {
   Document document =
-      read_scene(std::string(CANDELA_TEST_SOURCE_DIR) + "/scenes/spheres_and_planes.json").document;
+      read_scene(std::string(CANDELA_TEST_SOURCE_DIR) + "/scenes/depth_of_field.json").document;
   document.settings.stop = {};
   document.settings.stop.spp = 256;
   ViewerHarness hand(document, {.size = {1280, 720}, .fit_film = true});
