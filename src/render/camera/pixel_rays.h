@@ -45,15 +45,18 @@ public:
   std::optional<float> at(uvec2 pixel, vec2 film, vec2 lens, Ray& ray) const {
     const FilterSample filter = filter_.sample(film);
     const vec2 position = vec2(pixel) + 0.5f + filter.offset;
-    const std::optional<float> weight =
-        thin_lens_ ? thin_lens_->generate(position, lens, ray) : camera_->generate(position, lens, ray);
+    if (thin_lens_ != nullptr) { // of weight 1
+      thin_lens_->make_ray(position, lens, ray);
+      return filter.weight;
+    }
+    const std::optional<float> weight = camera_->generate(position, lens, ray);
     if (!weight) return std::nullopt;
     return filter.weight * *weight;
   }
 
 private:
   std::shared_ptr<const CameraModel> camera_;
-  /// The camera, if it is one: a virtual call takes 4 ns a sample, 6 % of a view of first hits.
+  /// The camera, if it is one.
   const ThinLensCamera* thin_lens_;
   bool uses_lens_sample_;
   PixelFilter filter_;
