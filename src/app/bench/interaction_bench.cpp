@@ -17,7 +17,7 @@ namespace candela {
 namespace {
 
 constexpr double kInputSeconds = 1 / 60.0; // from one movement of a flight to the next
-constexpr double kLook = 0.25;             // how often to look at what wakes nobody
+constexpr double kLook = 0.25;             // how often to poll what sends no event
 /// Between a picture and the next input, which then comes at any moment between two frames of a window that
 /// refreshes slowly: these steps, modulo 1, fill the range evenly (the golden ratio's sequence).
 constexpr double kRest = 0.05, kRestSpread = 0.1;

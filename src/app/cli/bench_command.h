@@ -17,7 +17,7 @@ struct InteractiveBenchOptions {
 };
 
 /// Measures in a window, or in memory where there is no display; prints a table with the targets, met or
-/// missed. Returns 0 whatever was measured.
+/// missed. Returns 0 for any measurement.
 int run_interactive_bench(const InteractiveBenchOptions& options);
 
 } // namespace candela

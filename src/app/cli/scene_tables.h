@@ -1,6 +1,6 @@
 #pragma once
-// The README's tables of what materials, lights and shapes have, with the values of what a scene file leaves
-// out.
+// The tables in scenes/README.md of what materials, lights and shapes have, with the values of what a scene
+// file leaves out.
 
 #include <string>
 

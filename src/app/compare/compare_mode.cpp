@@ -344,7 +344,7 @@ void CompareMode::export_figure(const CompareState& state, const Edited& edited,
           return [this, path = write_comparison_figure(source, folder)] {
             message_ = fmt::format("Saved {}", std::filesystem::path(path).lexically_normal().string());
           };
-        } catch (const std::exception& error) { // shown, whatever it is
+        } catch (const std::exception& error) { // shown
           return [this, problem = std::string(error.what())] { message_ = problem; };
         }
       });

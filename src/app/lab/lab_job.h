@@ -10,7 +10,7 @@
 namespace candela {
 
 /// What is shown is a copy that no longer changes; the next slice begins from it, so that closing the panel
-/// loses nothing and the lesson is the same whatever the slices. Of the UI thread; it must outlive the
+/// loses nothing, and the lesson does not depend on the slices. Of the UI thread; it must outlive the
 /// completions of the TaskThread that it is given.
 template <class Lesson>
 class LabJob {

@@ -19,7 +19,7 @@ struct Plot {
   float x(float stops) const { return lo.x + (stops - kLow) / (kHigh - kLow) * (hi.x - lo.x); }
 };
 
-/// Share of the pixels, as wide whatever it is.
+/// Share of the pixels, of constant width.
 std::string percent(std::size_t part, std::size_t whole) {
   return fmt::format("{:6.2f} %",
                      whole > 0 ? 100 * static_cast<double>(part) / static_cast<double>(whole) : 0);

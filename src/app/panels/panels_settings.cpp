@@ -76,7 +76,7 @@ void render_panel(Ui& ui, ViewerState& state) {
     for (const auto& row : settings_table()) {
       if (group_of(row.key) != group.prefix) continue;
       const bool fitted = state.fit_film && (row.key == "film.width" || row.key == "film.height");
-      // A fitted film's size is nobody's edit: it is its own default.
+      // A fitted film's size is not an edit: it is its own default.
       const Document& initial = fitted ? state.document : default_document();
       if (!setting(ui, row, state.document, initial, 0.01f)) continue;
       state.edited = true;

@@ -1,5 +1,5 @@
 #pragma once
-// What a window system tells the viewer, in terms of none: GLFW's callbacks and the tests make the same
+// Events for the viewer, independent of the window system: GLFW's callbacks and the tests make the same
 // values. Positions are framebuffer pixels from the top left.
 
 #include "core/math.h"
@@ -62,7 +62,7 @@ struct MouseButtonChanged {
   bool down = false;
 };
 struct MouseScrolled {
-  vec2 notches{0}; ///< y > 0: away from the hand
+  vec2 notches{0}; ///< y > 0: away from the user
 };
 struct KeyChanged {
   Key key = Key::none;
@@ -81,7 +81,7 @@ struct FilesDropped {
 };
 /// The window's close button, or the window manager.
 struct CloseRequested {};
-/// All keys and buttons count as released: nobody flies on while another window has the keyboard.
+/// All keys and buttons count as released: flight ends when another window gets the keyboard.
 struct FocusLost {};
 
 /// An edit that no widget makes, as a widget's is taken in: for scripts that measure.

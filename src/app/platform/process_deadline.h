@@ -8,8 +8,8 @@
 namespace candela {
 
 /// Ends the process with the exit code 0 unless it is destroyed within so many seconds: for the time when
-/// nothing can be lost any more, and what is still under way (a library that decodes a picture, a disk that
-/// does not answer) cannot be interrupted and interests nobody.
+/// everything is saved, and what is still under way (a library that decodes a picture, a disk that
+/// does not answer) cannot be interrupted and is not needed any more.
 class ProcessDeadline {
 public:
   explicit ProcessDeadline(double seconds);

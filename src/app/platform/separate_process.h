@@ -1,5 +1,5 @@
 #pragma once
-// Work in a process of its own: what it takes of memory is its own, too, and gone when it ends.
+// Work in a process of its own: its memory is freed when it ends.
 
 #include <functional>
 #include <string>

@@ -22,7 +22,7 @@ int write_whole(int descriptor, std::string_view text) {
     const ssize_t done = ::write(descriptor, text.data(), text.size());
     if (done >= 0) {
       text.remove_prefix(static_cast<std::size_t>(done));
-    } else if (errno == EAGAIN) { // whoever shares it made it non-blocking
+    } else if (errno == EAGAIN) { // another process made it non-blocking
       pollfd ready{descriptor, POLLOUT, 0};
       ::poll(&ready, 1, -1);
     } else if (errno != EINTR) {

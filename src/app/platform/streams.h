@@ -1,5 +1,5 @@
 #pragma once
-// The standard streams: results go to stdout and are lost or not, talk goes to stderr and may be.
+// The standard streams: results go to stdout and must not be lost, messages go to stderr.
 
 #include <fmt/format.h>
 
@@ -16,10 +16,10 @@ void prepare_streams();
 void check_stdout();
 
 /// Writes results to stdout; output_error where they do not get there. Where the reader of a pipe is gone, it
-/// ends the program by SIGPIPE, as other programs are, unless whoever started it had that ignored.
+/// ends the program by SIGPIPE, as other programs are, unless the parent process ignores that signal.
 void print_result(std::string_view text);
 
-/// Writes to stderr. Where nobody listens, the work goes on.
+/// Writes to stderr; a closed or broken stream is ignored.
 void say_text(std::string_view text);
 template <class... T>
 void say(fmt::format_string<T...> format, T&&... values) {

@@ -27,7 +27,7 @@ void forget_film_size(Document& document) {
   document.settings.film.height = standard.height;
 }
 
-/// Without what is nobody's edit.
+/// Without what is not an edit.
 Document comparable(Document document, bool fit_film) {
   if (fit_film) forget_film_size(document);
   return document;

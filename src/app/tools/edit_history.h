@@ -33,17 +33,18 @@ struct EditState {
 /// What an edit did, in a few words for a tooltip: "path.max_depth", "Material red: roughness", "Camera".
 std::string edit_name(const EditState& before, const EditState& after);
 
-/// Whether two documents differ in something that a file should keep: the camera's pose is not (who looks
-/// around has edited nothing), nor is the film's size while it follows the window.
+/// Whether two documents differ in something that a file should keep: the camera's pose
+/// is not (looking around is no edit), nor is the film's size while it follows the window.
 bool differs_from_file(const Document& document, const Document& saved, bool fit_film);
 
 class EditHistory {
 public:
-  /// Forgets everything; `now` is where undo ends.
+  /// Clears the history; `now` is where undo ends.
   void reset(EditState now);
 
-  /// Looks at the present state, once a frame. An edit becomes a step when no gesture (a drag, a flight) goes
-  /// on any more; one that ended where it began is none. A new step drops what could be redone.
+  /// Records the present state, once a frame. An edit becomes a step when no gesture (a drag, a flight) is
+  /// under way any more; a gesture that ends where it began makes none. A new step drops what could be
+  /// redone.
   void observe(const EditState& now, bool edited, bool in_gesture);
   /// Whether an edit waits for its gesture's end.
   bool pending() const { return pending_; }

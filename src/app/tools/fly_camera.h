@@ -17,8 +17,8 @@ struct FlyCommand {
 };
 
 /// The camera carried by `distance` (right, up, forward; scene units). Forward is the view direction, up the
-/// camera's up vector; the target comes along, so that the focus stays at its distance. Parallel rays show
-/// nothing of a step forward: an orthographic view becomes smaller by it instead, by a factor of e for the
+/// camera's up vector; the target comes along, so that the focus stays at its distance. A step forward does
+/// not change what parallel rays show: an orthographic view becomes smaller instead, by a factor of e for the
 /// distance to the target.
 Camera moved_camera(const Camera& camera, vec3 distance);
 
@@ -30,11 +30,11 @@ Camera turned_camera(const Camera& camera, float yaw, float pitch);
 /// by as much as it moved, whatever the lens. Of an orthographic view: as the target moves under the pointer.
 float radians_per_pixel(const Camera& camera, int film_height);
 
-/// What is wrong with the camera as a whole, though each value is in range (it looks nowhere, or along its up
-/// vector), and what to do; empty if it is fine.
+/// What is wrong with the camera as a whole, though each value is in range (no view direction, or one along
+/// its up vector), and what to do; empty if it is fine.
 std::string camera_problem(const Camera& camera);
 
-/// Scene units a second at which flight feels neither stuck nor lost: a quarter of the diagonal of the
+/// Scene units a second of flight that suit the scene: a quarter of the diagonal of the
 /// scene's world-space bounds, or of the distance to the target where there are none.
 float natural_speed(const Bounds3& bounds, const Camera& camera);
 

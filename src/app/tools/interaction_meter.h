@@ -1,6 +1,6 @@
 #pragma once
 // Input latency: how long after an input its picture is on the screen, and what the window's frames
-// cost meanwhile. The viewer tells it what it does; the Statistics panel and `candela bench` read it.
+// cost meanwhile. The viewer reports its events; the Statistics panel and `candela bench` read it.
 
 #include "render/film/frame.h"
 
@@ -32,14 +32,14 @@ struct WindowFrame {
 /// What the panel shows: medians and tails of what was measured last.
 struct MeterReadings {
   double first_ms = 0; ///< median; 0: there were no inputs
-  double full_ms = 0;  ///< median; 0: no input was left alone for so long
+  double full_ms = 0;  ///< median; 0: each input was followed by another before
   double frame_ms = 0, frame_p99_ms = 0;
   double render_share = 0; ///< of all cores, 0..1, while samples are being added; 0: not known yet
 };
 
 class InteractionMeter {
 public:
-  /// An input that came at `since` has been handed in and restarts the image.
+  /// An input of the time `since` was submitted and restarts the image.
   void submitted(std::uint64_t generation, MeterClock::time_point since);
   /// The picture is on the screen.
   void shown(const Frame& frame, MeterClock::time_point now);
@@ -52,9 +52,9 @@ public:
   bool waiting() const { return !waiting_.empty(); }
   std::uint64_t awaited() const { return waiting_.front().generation; } ///< the oldest; waiting() must hold
   std::uint64_t submissions() const { return submissions_; }            ///< since it began
-  /// No picture will come of what waits.
+  /// Drops the inputs that wait: they will get no picture.
   void give_up() { waiting_.clear(); }
-  void clear(); ///< forgets what is kept
+  void clear(); ///< drops what is kept
   /// Of the newest inputs and frames.
   MeterReadings readings() const;
 

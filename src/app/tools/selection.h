@@ -1,5 +1,5 @@
 #pragma once
-// What the user has picked to look at and to edit.
+// The object or light that the user has selected.
 
 #include "core/bounds.h"
 #include "scene/scene_desc.h"
@@ -23,18 +23,18 @@ Selection checked_selection(const SceneDesc& scene, const Selection& selection);
 /// The name, or "Object 3", "Light 0"; empty for none.
 std::string selection_name(const SceneDesc& scene, const Selection& selection);
 
-/// Materials that shine, or shone in `home`: one turned down to black can be turned up. The Lights panel
+/// Materials that emit, or emitted in `home`: one turned down to black can be turned up. The Lights panel
 /// lists them after the lights.
 std::vector<std::size_t> shining_materials(const SceneDesc& scene, const SceneDesc& home);
 
-/// The selection's place in the Lights panel: the light, or the first shining material of the object.
+/// The selection's place in the Lights panel: the light, or the first emitting material of the object.
 std::optional<int> light_row(const SceneDesc& scene, const SceneDesc& home, const Selection& selection);
 
 /// Corners of the box about an object's shape, in world space: bit 0 of the index is x, bit 1 y, bit 2 z of
 /// the object's own axes.
 using BoxCorners = std::array<vec3, 8>;
 
-/// Knows the box of the mesh that it was asked about last: one of a million vertices is looked through once.
+/// Caches the box of the last mesh, so that one of a million vertices is scanned once.
 class SelectionBox {
 public:
   /// Nothing for what has no place: no selection, or an infinite light. A light is a point.

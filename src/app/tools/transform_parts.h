@@ -1,5 +1,5 @@
 #pragma once
-// A transform as people type it: position, rotation, scale.
+// A transform as the user types it: position, rotation, scale.
 
 #include "core/math.h"
 

@@ -59,7 +59,7 @@ public:
   void readout(const char* label, std::string_view value, std::string_view tooltip = {});
 
   /// One row of a field table with the widget that suits its type; true when the value changed. The value
-  /// stays within its row, whatever is typed.
+  /// stays within its row for any text.
   bool field(const std::string& name, const FieldInfo& row, void* value, const FieldContext& context);
 
   /// Writes down where the last ImGui item is.
@@ -111,7 +111,7 @@ private:
   float scale_ = 1;
   std::map<std::string, bool> open_sections_;
   std::vector<WidgetRecord> widgets_;
-  // A number that is being typed counts when it is done: 1 and 19 are not meant by who types 192.
+  // A number that is being typed counts when it is done: 1 and 19 are not values while 192 is typed.
   unsigned typing_ = 0; // ImGui's id of the field, 0: none
   bool typing_drawn_ = false;
   std::string typed_, typed_at_first_; // the text in it, and what it was before

@@ -1,5 +1,5 @@
 #pragma once
-// Tells when files change on the disk, by looking at them now and then on a thread of its own.
+// Detects changes of files on the disk, by polling them on a thread of its own.
 
 #include "io/files/file_stamp.h"
 
@@ -20,12 +20,12 @@ public:
   FileWatch(const FileWatch&) = delete;
   FileWatch& operator=(const FileWatch&) = delete;
 
-  /// Watches these instead: against what `known` says of them, else what was last told of them, else as they
-  /// are now.
+  /// Watches these instead: compares with their stamps in `known`, else with those last reported, else with
+  /// those of now.
   void watch(std::set<std::string> files, FileStamps known = {});
 
   /// Those that were written, made or removed since, and then came to rest: a file that is still being
-  /// written would be read half. Each change is told once.
+  /// written would be read half. Each change is reported once.
   std::set<std::string> take_changes();
   bool has_change() const;
 
@@ -34,7 +34,7 @@ private:
   void run(double seconds);
 
   std::function<void()> wake_;
-  mutable std::mutex mutex_; // never held while files are looked at
+  mutable std::mutex mutex_; // never held while files are read
   std::condition_variable ended_;
   std::set<std::string> files_;
   FileStamps known_;

@@ -1,6 +1,6 @@
 #pragma once
 // What the user learns about the picture: what lies under the mouse, the distribution of brightness, what is
-// in focus. Whatever takes longer than a ray is done on a thread of its own.
+// in focus. What takes longer than a ray runs on a thread of its own.
 
 #include "app/panels/viewer_state.h"
 #include "app/platform/event.h"
@@ -20,7 +20,7 @@ public:
   Inspector(const Inspector&) = delete;
   Inspector& operator=(const Inspector&) = delete;
 
-  /// If the key was one of the probe's, the focus plane's or a bookmark's: what to tell about it, may be
+  /// If the key was one of the probe's, the focus plane's or a bookmark's: the message about it, which may be
   /// empty.
   std::optional<std::string> shortcut(Key key, bool control, ViewerState& state);
 

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMaxBytes = 1 << 20;
 constexpr std::size_t kMaxRecent = 10, kMaxSections = 500, kMaxPath = 4096;
 
-/// Deep nesting is nobody's preferences; the parser recurses for it when the value is destroyed.
+/// Deep nesting is refused: the parser recurses when the value is destroyed.
 constexpr int kMaxDepth = 8;
 
 /// Takes the members that are as they should be and remembers the names of the others.

@@ -21,16 +21,16 @@ struct Preferences {
   bool operator==(const Preferences&) const = default;
 };
 
-/// What a window has at scale 1, and what it has of it at another scale: rounded, so that a window that is
-/// remembered and opened again for ever stays as large as it was.
+/// What a window has at scale 1, and what it has of it at another scale: rounded, so that a window
+/// keeps its size however often it is stored and opened again.
 ivec2 size_at_scale_one(ivec2 framebuffer, float scale);
 ivec2 size_at_scale(ivec2 size, float scale);
 
 /// $XDG_CONFIG_HOME/candela/preferences.json, or below ~/.config; empty where there is neither.
 std::filesystem::path default_preferences_path();
 
-/// What of the file makes sense; its own defaults for the rest. `warning` says what was left out; a missing
-/// file is no reason for one.
+/// The valid values of the file, defaults for the rest. `warning` names what was ignored; a missing file
+/// gives none.
 Preferences read_preferences(const std::filesystem::path& path, std::string& warning);
 
 /// Makes the folder if need be; the file appears whole or not at all. output_error if it cannot be written.

@@ -132,7 +132,7 @@ bool Viewer::frame(double now, bool may_wait) {
   if (std::string refusal = ui_.take_refusal(); !refusal.empty()) notify(std::move(refusal));
   draw_overlay();
   typing_ = io.WantTextInput || imgui_->WantTextInputNextFrame > 0;
-  if (typing_ || !single_keys_act(Key::w)) held_.clear(); // nobody flies on behind a question
+  if (typing_ || !single_keys_act(Key::w)) held_.clear(); // a question ends flight
   use_mouse_on_picture();
   fly();
   serve_requests();

@@ -59,8 +59,8 @@ public:
 
   void handle(Event event);
 
-  /// Takes in what happened and draws into the current framebuffer; `now` is any monotonic clock in seconds.
-  /// With `may_wait` it draws nothing, and returns false, where it has just handed in an edit whose picture
+  /// Handles the events and draws into the current framebuffer; `now` is any monotonic clock in seconds.
+  /// With `may_wait` it draws nothing, and returns false, where it has just submitted an edit whose picture
   /// will come soon.
   bool frame(double now, bool may_wait = false);
 
@@ -243,7 +243,7 @@ private:
     std::set<MouseButton> buttons;
     std::set<Key> keys;
     std::vector<KeyPress> pressed; // not meant for a text field
-    bool ends_keys = false;        // who has the keyboard may be another one after this frame
+    bool ends_keys = false;        // the keyboard may go to another widget after this frame
   } taken_;
   std::set<Key> held_;    // keys that fly
   bool typing_ = false;   // a text field has the keyboard

@@ -44,8 +44,7 @@ std::shared_ptr<const Panorama> panorama_without_scene(const std::string& path,
   if (const std::string ending = lower_ending(path);
       (ending == ".png" || ending == ".exr") && holds_picture_state(path))
     return nullptr;
-  WarningList corrections(
-      std::move(progress)); // of values that no light has: nothing that the user could repair
+  WarningList corrections(std::move(progress)); // of values that no light has: the user cannot repair it
   return read_panorama(std::span(&path, 1), corrections);
 }
 

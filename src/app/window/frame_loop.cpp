@@ -29,7 +29,7 @@ void run_frames(Viewer& viewer, const FrameHost& host, ViewerDriver* driver) {
       host.wait(std::min(due - now, asked_again));
       continue;
     }
-    // What came late, less the time that nobody knew of anything to draw.
+    // The delay, less the time without anything to draw.
     const double late = wanted_at < 0 ? 0 : now - std::max(due, wanted_at);
     wanted_at = -1;
     if (!viewer.frame(now, true)) continue;

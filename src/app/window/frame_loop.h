@@ -1,6 +1,6 @@
 #pragma once
-// When the viewer is drawn: at once where a hand waits for it, seldom where only numbers and samples grow,
-// not at all where nothing changes. Every window runs the same loop, whatever it is shown on.
+// When the viewer is drawn: at once after an input, seldom where only numbers and samples grow, not at all
+// where nothing changes. The window on a screen and the one in memory run the same loop.
 
 #include <functional>
 
@@ -8,7 +8,7 @@ namespace candela {
 
 class Viewer;
 
-/// What a viewer is shown on.
+/// A screen, or memory.
 struct FrameHost {
   std::function<double()> now; ///< seconds, monotonic
   /// Takes the events that are there; with none it waits for one, or for the viewer's `wake`, at most so
@@ -21,12 +21,12 @@ struct FrameHost {
 class ViewerDriver {
 public:
   virtual ~ViewerDriver() = default;
-  /// Between frames: may hand events to the viewer. Returns the seconds after which it wants to be asked
-  /// again at the latest; it is asked after every frame. Negative: it is done, and the loop ends.
+  /// Between frames: may send events to the viewer. Returns the seconds after which it is to be called again
+  /// at the latest; it is called after every frame. Negative: it is done, and the loop ends.
   virtual double next(Viewer& viewer) = 0;
 };
 
-/// Runs until the viewer wants to close, or `driver` (null: nobody) is done.
+/// Runs until the viewer wants to close, or `driver` (may be null) is done.
 void run_frames(Viewer& viewer, const FrameHost& host, ViewerDriver* driver);
 
 } // namespace candela

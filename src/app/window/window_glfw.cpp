@@ -84,7 +84,7 @@ Key key_of(int glfw_key) {
   return Key::none;
 }
 
-/// Letters go by what is printed on the user's keyboard, whatever its layout.
+/// Letters are those printed on the keyboard, in any layout.
 Key layout_key(int glfw_key, int scancode) {
   if (glfw_key >= GLFW_KEY_A && glfw_key <= GLFW_KEY_Z) {
     const char* name = glfwGetKeyName(glfw_key, scancode);

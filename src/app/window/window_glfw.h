@@ -10,7 +10,7 @@ namespace candela {
 /// as Xvfb starts anew, and refuses for a moment, when its last client leaves.
 bool display_available();
 
-/// Opens the window and returns when it is closed, or when `driver` (null: nobody) is done. An Error with
+/// Opens the window and returns when it is closed, or when `driver` (may be null) is done. An Error with
 /// ExitCode::display, cause and remedy if there is no display or no OpenGL 3.3.
 void run_window(ViewerOptions options, ViewerDriver* driver = nullptr);
 

@@ -1,7 +1,7 @@
 #pragma once
 // The camera ray of a pixel's sample, for all who trace it: the image and what is gathered beside it.
 
-#include "render/camera/camera_model.h"
+#include "render/camera/thin_lens_camera.h"
 #include "sampling/filter.h"
 #include "sampling/sampler.h"
 #include "scene/document.h"
@@ -17,6 +17,7 @@ public:
       : camera_(camera ? std::move(camera)
                        : make_camera(document.scene.camera, document.settings.film.width,
                                      document.settings.film.height)),
+        thin_lens_(dynamic_cast<const ThinLensCamera*>(camera_.get())),
         uses_lens_sample_(camera_->uses_lens_sample()),
         filter_(document.settings.film.filter, document.settings.film.filter_radius) {}
 
@@ -43,13 +44,20 @@ public:
   /// The same from numbers that were drawn before; see CameraModel::generate.
   std::optional<float> at(uvec2 pixel, vec2 film, vec2 lens, Ray& ray) const {
     const FilterSample filter = filter_.sample(film);
-    const std::optional<float> weight = camera_->generate(vec2(pixel) + 0.5f + filter.offset, lens, ray);
+    const vec2 position = vec2(pixel) + 0.5f + filter.offset;
+    if (thin_lens_ != nullptr) { // of weight 1
+      thin_lens_->make_ray(position, lens, ray);
+      return filter.weight;
+    }
+    const std::optional<float> weight = camera_->generate(position, lens, ray);
     if (!weight) return std::nullopt;
     return filter.weight * *weight;
   }
 
 private:
   std::shared_ptr<const CameraModel> camera_;
+  /// The camera, if it is one.
+  const ThinLensCamera* thin_lens_;
   bool uses_lens_sample_;
   PixelFilter filter_;
 };

