@@ -157,7 +157,8 @@ private:
                       luminance(parts.more)};
       break;
     case View::light_share:
-      result.value = {luminance(parts.light_sampled), luminance(parts.direct + parts.indirect() - parts.light_sampled), 0};
+      result.value = {luminance(parts.light_sampled),
+                      luminance(parts.direct + parts.indirect() - parts.light_sampled), 0};
       break;
     default:
       result.value = parts.radiance();
