@@ -1,5 +1,5 @@
 #pragma once
-// Dispatch on the alternative of a variant, at the speed of a switch however many alternatives there are.
+// Dispatch on the alternative of a variant, inlined however many alternatives there are.
 
 #include <cstddef>
 #include <type_traits>
@@ -24,9 +24,9 @@ template <std::size_t I, class F, class V>
 
 } // namespace detail
 
-/// f(alternative) of a variant that has a value; all results of one type. libstdc++'s std::visit is a switch
-/// for up to eleven alternatives and a call through a table for more, which the compiler does not inline.
-/// This is a chain of comparisons of the index, which compilers turn into a switch.
+/// f(alternative/// f(alternative) of a variant that has a value; all results of one type. libstdc++'s std::visit is a switch
+/// for up to eleven alternatives and a call through a table for more, which the compiler does not inline. This
+/// is a chain of comparisons of the index (clang makes a switch of it): put common alternatives first.
 template <class F, class V>
 [[gnu::always_inline]] inline decltype(auto) visit_variant(F&& f, V&& variant) {
   return detail::visit_from<0>(std::forward<F>(f), variant);

@@ -59,7 +59,8 @@ const Field<Document> kRows[] = {
       kImage, kIntegrators},
      AT(settings.integrator)},
     {{"path.light_sampling", FieldType::choice, 0, 0, "",
-      "How direct light is found: by BSDF sampling (bsdf), by light sampling (nee), or by both, weighted (mis)",
+      "How direct light is found: by BSDF sampling (bsdf), by light sampling (nee), or by both, weighted "
+      "(mis)",
       kImage, kLightSampling},
      AT(settings.path.light_sampling)},
     {{"path.mis_heuristic", FieldType::choice, 0, 0, "", "Weights of mis", kImage, kHeuristics},

@@ -2,8 +2,8 @@
 // the bound on survival is left. And every pass ends when it is asked to. Tests that hang have failed.
 
 #include "core/stop_condition.h"
-#include "render/integrators/russian_roulette.h"
 #include "render/integrators/path_integrator.h"
+#include "render/integrators/russian_roulette.h"
 #include "render/render_testing.h"
 
 #include <random>
