@@ -68,6 +68,7 @@ struct HarnessOptions {
   std::filesystem::path screenshot_folder = ".";
   std::filesystem::path preferences = {}; ///< empty: nothing is remembered
   std::function<void(const Progress&)> on_build = {};
+  std::string scene_path = {}; ///< ViewerOptions::scene_path
 };
 
 /// One at a time: the newest context is the current one.
@@ -252,6 +253,7 @@ private:
     out.screenshot_folder = options.screenshot_folder;
     out.threads = 2;
     out.on_build = options.on_build;
+    out.scene_path = options.scene_path;
     std::string warning;
     out.preferences_path = options.preferences;
     if (!options.preferences.empty()) out.preferences = read_preferences(options.preferences, warning);
