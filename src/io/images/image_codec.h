@@ -1,6 +1,6 @@
 #pragma once
 // What the image formats of this folder have in common, and their entry points.
-// Only image_file.cpp, texture_reader.cpp and panorama_reader.cpp use these;
+// Only image_file.cpp, texels_reader.cpp and panorama_reader.cpp use these;
 // everybody else goes through their headers.
 //
 // Decoders take the whole file; they throw input_error for what is damaged and
