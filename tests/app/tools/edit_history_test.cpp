@@ -39,10 +39,10 @@ TEST_F(History, StepsThereAndBack) {
   EXPECT_EQ(history.undo_name(), "path.max_depth");
   state.document.scene.materials[0].opacity = 0.7f;
   observe();
-  EXPECT_EQ(history.undo_name(), "red: roughness");
+  EXPECT_EQ(history.undo_name(), "red: opacity");
   const Document last = state.document;
   history.undo();
-  EXPECT_EQ(history.redo_name(), "red: roughness");
+  EXPECT_EQ(history.redo_name(), "red: opacity");
   EXPECT_EQ(history.undo().document, first);
   EXPECT_FALSE(history.can_undo());
   history.redo();
