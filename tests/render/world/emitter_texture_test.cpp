@@ -56,7 +56,7 @@ TEST(EmitterTexture, CoordinatesOfPointsAreThoseOfRays) {
     const Ray ray{from, 0, glm::normalize(to - from), kInfinity};
     const auto hit = geometry.accel().intersect(ray);
     if (!hit) continue;
-    const Surface surface = geometry.surface(ray, *hit);
+    const SurfaceInteraction surface = geometry.surface(ray, *hit);
     const vec2 expected = geometry.uv(ray, *hit);
     vec2 apart = glm::abs(emitter_uv(geometry, surface.emitter, surface.position) - expected);
     apart.x = std::min(apart.x, 1 - apart.x); // around a sphere

@@ -1,6 +1,7 @@
 // Tangents and footprints of texture coordinates, against coordinates of points nearby.
 
-#include "render/camera/camera_rays.h"
+#include "render/camera/camera_model.h"
+#include "render/camera/camera_view.h"
 #include "render/render_testing.h"
 #include "render/world/ray_cone.h"
 
@@ -101,16 +102,17 @@ TEST(RayCone, FootprintOfAPlaneAtAnAngleIsItsClosedForm) {
 TEST(RayCone, FootprintIsWhatAPixelOfTheCameraCovers) {
   SceneMaker s(64, 64, 1);
   s.camera({0, -4, 2}, {0, 0, 0}, 30);
-  const CameraRays camera(s.document.scene.camera, 64, 64);
+  const CameraView view(s.document.scene.camera, 64, 64);
+  const auto camera = make_camera(s.document.scene.camera, 64, 64);
   Mesh plane;
   plane.positions = {{-9, -9, 0}, {27, -9, 0}, {-9, 27, 0}};
   plane.uvs = {{0, 0}, {6, 0}, {0, 12}};
   plane.triangles = {{0, 1, 2}};
   const auto g = geometry_of(std::make_shared<const Mesh>(plane), mat4(1));
-  auto through = [&](vec2 film) { return camera.ray(film, vec2(0)); };
+  auto through = [&](vec2 film) { return camera->ray(film, vec2(0))->ray; };
   const Ray ray = through({32, 32});
   const At here = at(*g, ray), right = at(*g, through({33, 32})), down = at(*g, through({32, 33}));
-  const RayCone cone = RayCone::of_pixel(camera.pixel_footprint(0).y, camera.pixel_footprint(1).y);
+  const RayCone cone = RayCone::of_pixel(view.pixel_footprint(0).y, view.pixel_footprint(1).y);
   const float width = cone.width_at(glm::length(here.position - ray.origin));
   const UvFootprint f = uv_footprint(ray.direction, here.normal, width, here.tangents);
   // Looking along y the pixel's rows lie across, so the axes are those of the ellipse.
