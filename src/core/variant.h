@@ -24,9 +24,10 @@ template <std::size_t I, class F, class V>
 
 } // namespace detail
 
-/// f(alternative/// f(alternative) of a variant that has a value; all results of one type. libstdc++'s std::visit is a switch
-/// for up to eleven alternatives and a call through a table for more, which the compiler does not inline. This
-/// is a chain of comparisons of the index (clang makes a switch of it): put common alternatives first.
+/// f(alternative/// f(alternative) of a variant that has a value; all results of one type. libstdc++'s
+/// std::visit is a switch for up to eleven alternatives and a call through a table for more, which the
+/// compiler does not inline. This is a chain of comparisons of the index (clang makes a switch of it): put
+/// common alternatives first.
 template <class F, class V>
 [[gnu::always_inline]] inline decltype(auto) visit_variant(F&& f, V&& variant) {
   return detail::visit_from<0>(std::forward<F>(f), variant);

@@ -36,8 +36,8 @@ Error unknown_key(JsonValue key, std::string_view element, std::span<const std::
 
 /// Reads a key that is a row of the table, if it is one.
 template <class Owner>
-bool read_row(std::span<const Field<Owner>> rows, std::type_identity_t<Owner>& owner, JsonValue key, JsonValue value,
-              std::string_view element) {
+bool read_row(std::span<const Field<Owner>> rows, std::type_identity_t<Owner>& owner, JsonValue key,
+              JsonValue value, std::string_view element) {
   for (const auto& row : rows)
     if (row.key == key.string()) {
       read_field(row, row.address(owner), value, std::string(element) + "." + key.string());

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scene/lights/light_model.h"
-#include "scene/panorama.h"
+#include "scene/lights/panorama.h"
 
 #include <memory>
 

@@ -137,7 +137,7 @@ TEST(GalleryRender, APlainPictureIsTheRendersOwn) {
   EXPECT_EQ(written->width, 24);
   EXPECT_EQ(written->height, 20);
   EXPECT_EQ(srgb8_texels(*written), displayed_srgb8(result.film.image(), document.settings.display,
-                                           document.settings.view, result.display_scale));
+                                                    document.settings.view, result.display_scale));
 }
 
 TEST(GalleryRender, APictureMayBeDenoisedOrAnotherView) {
