@@ -2,10 +2,10 @@
 // The lesson `brdf`: the lobe of a scattering model, its albedo by Monte Carlo, and whether it samples the
 // density that it claims.
 
-#include "bsdf/direction_sampling.h"
 #include "core/fields.h"
 #include "lab/histogram.h"
 #include "lab/source.h"
+#include "materials/direction_sampling.h"
 
 namespace candela {
 

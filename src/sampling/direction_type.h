@@ -2,7 +2,7 @@
 
 namespace candela {
 
-/// How a scattered direction is chosen (bsdf/direction_sampling.h); all have the same expectation.
+/// How a scattered direction is chosen (materials/direction_sampling.h); all have the same expectation.
 enum class DirectionSampling : int {
   uniform, ///< uniform over the hemisphere
   cosine,  ///< proportional to the cosine with the shading normal

@@ -5,10 +5,10 @@
 
 #include "imaging/display_settings.h"
 #include "imaging/view.h"
+#include "materials/material_choice.h"
 #include "sampling/direction_type.h"
 #include "sampling/filter_type.h"
 #include "sampling/sampler_type.h"
-#include "scene/materials/material_choice.h"
 #include "scene/scene_desc.h"
 
 namespace candela {

@@ -4,10 +4,10 @@
 
 #include "core/bounds.h"
 #include "core/fields.h"
-#include "scene/lights/light.h"
-#include "scene/materials/material.h"
+#include "lights/light_desc.h"
+#include "materials/material.h"
 #include "scene/mesh.h"
-#include "scene/textures/texture.h"
+#include "textures/texture.h"
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 // Cost of random numbers and of the warps that follow them, in the pattern of a path: one start a sample,
 // then a few draws a bounce.
 
-#include "bsdf/direction_sampling.h"
+#include "materials/direction_sampling.h"
 #include "sampling/sampler.h"
 #include "sampling/spherical_rectangle.h"
 #include "sampling/warp.h"

@@ -1,6 +1,6 @@
 // What models say that they do, against what they do.
 
-#include "bsdf_test_models.h"
+#include "bsdf/bsdf_test_models.h"
 
 #include <gtest/gtest.h>
 

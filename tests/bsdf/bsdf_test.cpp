@@ -1,7 +1,7 @@
 // What all scattering models promise.
 
-#include "bsdf/bsdf.h"
-#include "bsdf_test_models.h"
+#include "bsdf/bsdf_test_models.h"
+#include "materials/bsdf.h"
 #include "support/direction_statistics.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 // Models and directions that several tests go through.
 
-#include "bsdf/bsdf.h"
+#include "materials/bsdf.h"
 #include "support/seed.h"
 
 #include <random>

@@ -1,6 +1,6 @@
+#include "bsdf/bsdf_test_models.h"
 #include "bsdf/dielectric.h"
 #include "bsdf/mirror.h"
-#include "bsdf_test_models.h"
 #include "support/statistics.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The stand-in for a BSDF by which lights are chosen.
 
-#include "bsdf/bsdf.h"
+#include "materials/bsdf.h"
 #include "support/seed.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
+#include "bsdf/bsdf_test_models.h"
 #include "bsdf/phong.h"
-#include "bsdf_test_models.h"
 #include "support/direction_statistics.h"
 
 #include <gtest/gtest.h>

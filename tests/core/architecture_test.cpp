@@ -21,7 +21,6 @@ namespace {
 const std::map<std::string, std::vector<std::string>, std::less<>>& rooms() {
   static const std::map<std::string, std::vector<std::string>, std::less<>> table = {
       {"accel", {"simd", "primitives"}},
-      {"scene", {"textures", "materials", "lights"}},
       {"io", {"files", "images", "obj", "builder", "candela", "cs123"}},
       {"render", {"lights", "world", "camera", "integrators", "film", "denoise"}},
       {"app",
@@ -36,14 +35,15 @@ const std::map<std::string, std::set<std::string>, std::less<>>& allowed() {
   static const std::map<std::string, std::set<std::string>, std::less<>> table = [] {
     std::map<std::string, std::set<std::string>, std::less<>> t;
     std::set<std::string> before;
-    for (const char* folder : {"core", "sampling", "imaging", "bsdf", "media", "accel", "scene"}) {
+    for (const char* folder : {"core", "sampling", "imaging", "bsdf", "textures", "materials", "lights",
+                               "media", "accel", "scene"}) {
       t[folder] = before;
       before.insert(folder);
     }
     t["io"] = t["render"] = before; // siblings
     before.insert({"io", "render"});
     t["session"] = before;
-    t["lab"] = {"core", "sampling", "bsdf"};
+    t["lab"] = {"core", "sampling", "imaging", "bsdf", "textures", "materials"};
     before.insert({"session", "lab"});
     t["app"] = before;
     return t;

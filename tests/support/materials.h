@@ -1,7 +1,7 @@
 #pragma once
 // The values of materials by their keys, for tests that know what is there.
 
-#include "scene/materials/material.h"
+#include "materials/material.h"
 
 #include <algorithm>
 #include <stdexcept>

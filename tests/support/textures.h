@@ -1,7 +1,7 @@
 #pragma once
 // Small textures.
 
-#include "scene/textures/texture.h"
+#include "textures/texture.h"
 
 namespace candela::test {
 

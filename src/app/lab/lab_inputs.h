@@ -2,8 +2,8 @@
 // What the lessons are given, from the settings' and the materials' own tables: shared by the command and the
 // panel.
 
-#include "bsdf/bsdf.h"
 #include "lab/source.h"
+#include "materials/bsdf.h"
 #include "scene/document.h"
 
 #include <vector>

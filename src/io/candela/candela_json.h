@@ -32,7 +32,7 @@
 //
 // An environment light has a panorama: "file", or "files" (six faces of a cube: +x, -x, +y, -y, +z, -z), or
 // inline "image": {"name", "width", "height", "pixels": [3 width height numbers]}; without one it is the same
-// from everywhere. For its "mapping" see render/lights/environment_map.h.
+// from everywhere. For its "mapping" see lights/environment_map.h.
 //
 // Files are named relative to the scene's folder. A number or colour of a material may be a texture, of which
 // it is factor * texel + offset: {"texture": …, "factor": 1, "offset": 0, "channel", "filter", "wrap",

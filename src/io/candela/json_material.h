@@ -2,7 +2,7 @@
 // Entries of "materials" in Candela JSON.
 
 #include "io/candela/json_tree.h"
-#include "scene/materials/material.h"
+#include "materials/material.h"
 
 #include <functional>
 #include <string>

@@ -3,7 +3,7 @@
 
 #include "io/candela/json_tree.h"
 #include "io/files/warning_list.h"
-#include "scene/textures/texture.h"
+#include "textures/texture.h"
 
 #include <memory>
 #include <optional>

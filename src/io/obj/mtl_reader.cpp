@@ -2,7 +2,7 @@
 
 #include "io/files/text_file.h"
 #include "io/obj/mtl_parser.h"
-#include "scene/materials/material_choice.h"
+#include "materials/material_choice.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "render/denoise/feature_film.h"
 
-#include "bsdf/direction_sampling.h"
+#include "materials/direction_sampling.h"
 #include "render/camera/pixel_rays.h"
 #include "render/integrators/path_integrator.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 // Next-event estimation: direct light at surface points, from lights that are sampled.
 
-#include "bsdf/direction_sampling.h"
 #include "core/stop_condition.h"
+#include "materials/direction_sampling.h"
 #include "render/integrators/vertex_lanes.h"
 #include "render/lights/light_lanes.h"
 

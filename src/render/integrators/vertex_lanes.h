@@ -1,8 +1,8 @@
 #pragma once
 // Hits of many rays made ready for scattering, side by side: what Vertex is of one.
 
-#include "bsdf/direction_sampling.h"
 #include "core/lanes.h"
+#include "materials/direction_sampling.h"
 #include "render/integrators/transport.h"
 
 #include <span>

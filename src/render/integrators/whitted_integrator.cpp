@@ -1,6 +1,6 @@
 #include "render/integrators/whitted_integrator.h"
 
-#include "bsdf/delta_lobes.h"
+#include "materials/delta_lobes.h"
 #include "render/integrators/russian_roulette.h"
 
 namespace candela {

@@ -2,7 +2,7 @@
 // Samples of many lights, side by side.
 
 #include "core/lanes.h"
-#include "render/lights/light.h"
+#include "lights/light.h"
 
 #include <span>
 

@@ -2,7 +2,7 @@
 // Choosing a light by what it may contribute to a point.
 
 #include "core/progress.h"
-#include "render/lights/light.h"
+#include "lights/light.h"
 
 #include <array>
 #include <span>

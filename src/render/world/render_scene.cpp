@@ -8,19 +8,6 @@
 
 namespace candela {
 
-namespace {
-
-/// First `rotation` about +y, then the smallest turn that takes +y to `up`.
-mat3 world_from_panorama(const EnvironmentLightModel& light) {
-  glm::dvec3 up = glm::normalize(glm::dvec3(light.up)), y(0, 1, 0), axis = glm::cross(y, up);
-  double sine = glm::length(axis), tilt = std::atan2(sine, up.y);
-  axis = sine > 0 ? axis / sine : glm::dvec3(1, 0, 0);
-  glm::dmat4 turn = glm::rotate(glm::dmat4(1), tilt, axis);
-  return mat3(glm::rotate(turn, static_cast<double>(light.rotation), y));
-}
-
-} // namespace
-
 std::shared_ptr<const RenderScene> RenderScene::build(const Document& document, const RenderScene* previous,
                                                       Progress* progress) {
   const std::vector<Instance>& instances = document.scene.instances;
@@ -199,30 +186,12 @@ const EnvironmentMap* SceneLights::environment_map(const EnvironmentLightModel& 
 
 void SceneLights::add_lights(const std::vector<LightDesc>& lights, const SceneLights* previous,
                              const Progress* progress) {
+  const EnvironmentMapSource maps = [&](const EnvironmentLightModel& m) {
+    return environment_map(m, previous, progress);
+  };
   for (const LightDesc& desc : lights) {
-    const vec3 color = desc.color * desc.scale;
-    if (is_black(color)) continue;
-    auto made = [&](const auto& m) -> Light {
-      using Model = std::decay_t<decltype(m)>;
-      if constexpr (std::is_same_v<Model, PointLightModel>)
-        return PointLight{m.position, color, m.attenuation};
-      else if constexpr (std::is_same_v<Model, SpotLightModel>)
-        return SpotLight{m.position,
-                         glm::normalize(m.direction),
-                         std::min(m.beam_width, m.cutoff_angle),
-                         m.cutoff_angle,
-                         color,
-                         m.attenuation};
-      else if constexpr (std::is_same_v<Model, DirectionalLightModel>)
-        return DirectionalLight{glm::normalize(m.direction), color};
-      else if constexpr (std::is_same_v<Model, EnvironmentLightModel>) {
-        if (m.panorama)
-          return EnvironmentLight{environment_map(m, previous, progress), world_from_panorama(m), color};
-        return ConstantLight{color};
-      } else
-        return ConstantLight{color};
-    };
-    const Light light = std::visit(made, desc.model);
+    if (is_black(desc.color * desc.scale)) continue;
+    const Light light = make_light(desc, maps);
     if (light_kind(light) == LightKind::infinite)
       infinite_lights_.push_back(static_cast<std::uint32_t>(lights_.size()));
     lights_.push_back(light);

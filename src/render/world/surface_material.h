@@ -1,11 +1,11 @@
 #pragma once
 // Materials as shading needs them: constants evaluated once, textures at a hit.
 
-#include "bsdf/bsdf.h"
 #include "core/spectrum.h"
+#include "materials/bsdf.h"
+#include "materials/material.h"
 #include "media/medium_stack.h"
-#include "scene/materials/material.h"
-#include "scene/textures/texture.h"
+#include "textures/texture.h"
 
 #include <deque>
 #include <memory>

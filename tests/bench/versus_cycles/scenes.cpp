@@ -68,7 +68,7 @@ Image sky_with_sun() {
   const float radius = radians(0.53f / 2), cos_radius = std::cos(radius);
   const vec3 sun = glm::normalize(vec3(0.62f, 0.84f, 0.42f));
   const vec3 sun_radiance = vec3(3.5f, 3.15f, 2.6f) / (2 * kPi * (1 - cos_radius));
-  // The inverse of render/lights/environment_map.h: u = atan2(x, -z) / 2 pi, v = acos(y) / pi.
+  // The inverse of lights/environment_map.h: u = atan2(x, -z) / 2 pi, v = acos(y) / pi.
   auto direction = [](float x, float y) {
     float phi = 2 * kPi * x / kWidth, theta = kPi * y / kHeight;
     return vec3(std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi));

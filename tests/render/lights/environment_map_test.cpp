@@ -1,6 +1,6 @@
 // Panoramas: where they have which direction, how they are sampled, and what they light.
 
-#include "render/lights/environment_map.h"
+#include "lights/environment_map.h"
 #include "render/render_testing.h"
 #include "support/direction_statistics.h"
 

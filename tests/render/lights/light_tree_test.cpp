@@ -1,6 +1,6 @@
 // Choosing among lights by what they may contribute.
 
-#include "bsdf/bsdf.h"
+#include "materials/bsdf.h"
 #include "render/lights/light_selection.h"
 #include "render/quadrants.h"
 

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "core/color.h"
+#include "lights/light_bounds.h"
+#include "lights/light_rows.h"
+#include "lights/light_sample.h"
+#include "sampling/warp.h"
+
+namespace candela {
+
+/// The same radiance from all around. The colour is the radiance, W/(m^2 sr).
+struct ConstantLightModel {
+  bool operator==(const ConstantLightModel&) const = default;
+
+  static constexpr std::string_view kName = "constant";
+  static constexpr std::array<LightRow<ConstantLightModel>, 0> rows() { return {}; }
+  std::string problem() const { return ""; }
+};
+
+/// The same radiance from everywhere: sampled by the cosine on the normal's side, or on both where the point
+/// transmits; evenly from all around for a point in a medium.
+struct ConstantLight {
+  Spectrum radiance{0};
+
+  static constexpr LightKind kind = LightKind::infinite;
+
+  Spectrum radiance_from(vec3) const { return radiance; }
+  std::optional<LightSample> sample(const LightSamplingContext& ctx, vec2 u) const {
+    LightSample s;
+    if (ctx.domain == ScatteringDomain::volume) {
+      s.direction = sample_uniform_sphere(u);
+    } else {
+      const bool transmits = ctx.domain == ScatteringDomain::sphere;
+      const bool behind = transmits && u.x < 0.5f;
+      if (transmits) u.x = std::min(behind ? 2 * u.x : 2 * u.x - 1, kOneMinusEpsilon);
+      vec3 local = sample_cosine_hemisphere(u);
+      if (!(local.z > 0)) return std::nullopt;
+      if (behind) local.z = -local.z;
+      s.direction = Basis::from_normal(ctx.normal).to_world(local);
+    }
+    s.radiance = radiance;
+    s.pdf = pdf(ctx, {}, s.direction);
+    s.infinite = true;
+    if (!(s.pdf > 0)) return std::nullopt; // the frame rounds
+    return s;
+  }
+  float pdf(const LightSamplingContext& ctx, vec3, vec3 direction) const {
+    if (ctx.domain == ScatteringDomain::volume) return kUniformSpherePdf;
+    const float cosine = glm::dot(ctx.normal, direction);
+    return ctx.domain == ScatteringDomain::sphere ? 0.5f * cosine_hemisphere_pdf(std::abs(cosine))
+                                                  : cosine_hemisphere_pdf(cosine);
+  }
+  float power(float scene_radius) const { return luminance(radiance) * 4 * kPi * (kPi * sqr(scene_radius)); }
+  std::optional<LightBounds> bounds() const { return std::nullopt; }
+  double mean_irradiance(EnvironmentDensity) const { return static_cast<double>(kPi * luminance(radiance)); }
+};
+
+inline ConstantLight light_of(const ConstantLightModel&, Spectrum color, const EnvironmentMapSource&) {
+  return {color};
+}
+
+} // namespace candela

@@ -1,0 +1,124 @@
+#pragma once
+// The list of lights. Shapes shine by their material; the others come from LightDesc (lights/light_desc.h).
+
+#include "core/variant.h"
+#include "lights/constant_light.h"
+#include "lights/directional_light.h"
+#include "lights/disc_light.h"
+#include "lights/environment_light.h"
+#include "lights/point_light.h"
+#include "lights/rectangle_light.h"
+#include "lights/sphere_light.h"
+#include "lights/spot_light.h"
+#include "lights/triangle_light.h"
+
+namespace candela {
+
+/// What every light offers.
+/// - kind: how it can be found.
+/// - sample: nothing where the light cannot be seen from the point, or where it has nothing for its domain.
+///   `u` in [0, 1)^2.
+/// - pdf: density in 1/sr with which sample() gives the direction towards `point` (area lights) or towards
+///   `direction` (infinite ones); 0 where it gives none, and of delta lights.
+/// - power: emitted power in W, for choosing among lights; of infinite ones, and of those whose attenuation
+/// is
+///   not physical, that which meets a scene of the given radius.
+/// - bounds: where it is and which way it shines; nothing for lights that are at no place or do not fall off
+///   with the square of the distance ("unbounded").
+///
+/// Infinite lights have radiance_from(direction): W/(m^2 sr) from a unit direction away from the scene.
+/// Lights that may be unbounded say how strong they are, in luminance:
+/// - mean_irradiance(density): W/m^2 on an average plane, where that is the same for all points;
+/// - typical_irradiance(): else, what it would be somewhere, for a scale.
+template <class L>
+concept LightModel = requires(const L& light, const LightSamplingContext& ctx, vec2 u, vec3 v, float radius) {
+  { L::kind } -> std::convertible_to<LightKind>;
+  { light.sample(ctx, u) } -> std::same_as<std::optional<LightSample>>;
+  { light.pdf(ctx, v, v) } -> std::same_as<float>;
+  { light.power(radius) } -> std::same_as<float>;
+  { light.bounds() } -> std::same_as<std::optional<LightBounds>>;
+}
+&&(L::kind != LightKind::infinite || requires(const L& light, vec3 direction) {
+  { light.radiance_from(direction) } -> std::same_as<Spectrum>;
+});
+
+/// What scenes say of lights without a shape, see lights/light_rows.h. A new light is a file of its own, and
+/// its names here and below.
+using LightDescModel = std::variant<PointLightModel, DirectionalLightModel, ConstantLightModel,
+                                    SpotLightModel, EnvironmentLightModel>;
+
+/// All lights as transport samples them, those that shapes are among them.
+using Light = std::variant<RectangleLight, TriangleLight, SphereLight, DiscLight, PointLight,
+                           DirectionalLight, ConstantLight, SpotLight, EnvironmentLight>;
+
+namespace detail {
+
+template <class... Models>
+constexpr bool are_light_models(const std::variant<Models...>*) {
+  return (LightModel<Models> && ...);
+}
+static_assert(are_light_models(static_cast<const Light*>(nullptr)));
+
+} // namespace detail
+
+// As LightModel's members of the same names.
+
+inline LightKind light_kind(const Light& light) {
+  return visit_variant([](const auto& l) { return l.kind; }, light);
+}
+inline std::optional<LightSample> sample_light(const Light& light, const LightSamplingContext& ctx, vec2 u) {
+  return visit_variant([&](const auto& l) { return l.sample(ctx, u); }, light);
+}
+inline float light_pdf(const Light& light, const LightSamplingContext& ctx, vec3 point, vec3 direction) {
+  return visit_variant([&](const auto& l) { return l.pdf(ctx, point, direction); }, light);
+}
+inline float light_power(const Light& light, float scene_radius) {
+  return visit_variant([&](const auto& l) { return l.power(scene_radius); }, light);
+}
+inline std::optional<LightBounds> light_bounds(const Light& light) {
+  return visit_variant([](const auto& l) { return l.bounds(); }, light);
+}
+
+/// Whether light sampling alone can find it.
+inline bool is_delta_light(const Light& light) {
+  const LightKind kind = light_kind(light);
+  return kind == LightKind::delta_position || kind == LightKind::delta_direction;
+}
+/// What an infinite light sends to the scene from `direction` (unit, away from the scene), W/(m^2 sr); 0 for
+/// all others.
+inline Spectrum light_radiance(const Light& light, vec3 direction) {
+  return visit_variant(
+      [&](const auto& l) {
+        if constexpr (requires { l.radiance_from(direction); })
+          return l.radiance_from(direction);
+        else
+          return Spectrum(0);
+      },
+      light);
+}
+/// 0 for lights whose irradiance differs from point to point.
+inline double light_mean_irradiance(const Light& light, EnvironmentDensity density) {
+  return visit_variant(
+      [&](const auto& l) {
+        if constexpr (requires { l.mean_irradiance(density); })
+          return l.mean_irradiance(density);
+        else
+          return 0.0;
+      },
+      light);
+}
+/// Of an unbounded light.
+inline double light_typical_irradiance(const Light& light) {
+  return visit_variant(
+      [&](const auto& l) {
+        if constexpr (requires { l.typical_irradiance(); })
+          return l.typical_irradiance();
+        else if constexpr (requires { l.mean_irradiance(EnvironmentDensity::full); })
+          return l.mean_irradiance(EnvironmentDensity::full);
+        else
+          return 0.0;
+      },
+      light);
+}
+
+} // namespace candela

@@ -1,0 +1,101 @@
+#pragma once
+// The scattering model at a hit, textures already evaluated, as one value.
+
+#include "core/variant.h"
+#include "materials/material_list.h"
+
+namespace candela {
+
+namespace detail {
+
+/// Any parameter's value, for types alone.
+struct AnyValue {
+  float operator()(const NumberParameter&) const;
+  Spectrum operator()(const ColorParameter&) const;
+};
+template <class Model>
+using ClosureOf = decltype(std::declval<const Model&>().closure(AnyValue()));
+
+/// The variant of the closures, each once, in the order of the models.
+template <class Closures, class... Models>
+struct ClosuresOf {
+  using Type = Closures;
+};
+template <class... Closures, class Model, class... Rest>
+struct ClosuresOf<std::variant<Closures...>, Model, Rest...> {
+  static constexpr bool kKnown = (std::is_same_v<ClosureOf<Model>, Closures> || ...);
+  using Extended =
+      std::conditional_t<kKnown, std::variant<Closures...>, std::variant<Closures..., ClosureOf<Model>>>;
+  using Type = typename ClosuresOf<Extended, Rest...>::Type;
+};
+template <class First, class... Rest>
+typename ClosuresOf<std::variant<ClosureOf<First>>, Rest...>::Type
+closures_of(const std::variant<First, Rest...>&);
+
+} // namespace detail
+
+/// The closures of all materials.
+using Bsdf = decltype(detail::closures_of(std::declval<const MaterialModel&>()));
+
+namespace detail {
+
+template <class... Models>
+constexpr bool are_bsdf_models(const std::variant<Models...>*) {
+  return (BsdfModel<Models> && ...);
+}
+static_assert(are_bsdf_models(static_cast<const Bsdf*>(nullptr)));
+
+} // namespace detail
+
+// As BsdfModel's members of the same names. Of symmetric models the mode makes no difference.
+
+inline Spectrum bsdf_eval(const Bsdf& bsdf, vec3 wo, vec3 wi, TransportMode mode = TransportMode::radiance) {
+  return visit_variant(
+      [&](const auto& model) {
+        if constexpr (requires { model.eval(wo, wi, mode); })
+          return model.eval(wo, wi, mode);
+        else
+          return model.eval(wo, wi);
+      },
+      bsdf);
+}
+inline float bsdf_pdf(const Bsdf& bsdf, vec3 wo, vec3 wi) {
+  return visit_variant([&](const auto& model) { return model.pdf(wo, wi); }, bsdf);
+}
+inline BsdfEval bsdf_eval_pdf(const Bsdf& bsdf, vec3 wo, vec3 wi,
+                              TransportMode mode = TransportMode::radiance) {
+  return visit_variant(
+      [&](const auto& model) {
+        if constexpr (requires { model.eval_pdf(wo, wi, mode); })
+          return model.eval_pdf(wo, wi, mode);
+        else
+          return model.eval_pdf(wo, wi);
+      },
+      bsdf);
+}
+/// Inlined, for a result that is copied from where a call has just written it stalls the processor.
+[[gnu::always_inline]] inline std::optional<BsdfSample>
+bsdf_sample(const Bsdf& bsdf, vec3 wo, BsdfU u, TransportMode mode = TransportMode::radiance) {
+  return visit_variant(
+      [&](const auto& model) {
+        if constexpr (requires { model.sample(wo, u, mode); })
+          return model.sample(wo, u, mode);
+        else
+          return model.sample(wo, u);
+      },
+      bsdf);
+}
+inline float bsdf_delta_probability(const Bsdf& bsdf, vec3 wo) {
+  return visit_variant([&](const auto& model) { return model.delta_probability(wo); }, bsdf);
+}
+inline BsdfFlags bsdf_flags(const Bsdf& bsdf) {
+  return visit_variant([](const auto& model) { return model.flags(); }, bsdf);
+}
+inline LobeProxy bsdf_lobe_proxy(const Bsdf& bsdf, vec3 wo) {
+  return visit_variant([&](const auto& model) { return model.lobe_proxy(wo); }, bsdf);
+}
+inline Spectrum bsdf_albedo(const Bsdf& bsdf) {
+  return visit_variant([](const auto& model) { return model.albedo(); }, bsdf);
+}
+
+} // namespace candela

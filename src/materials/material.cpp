@@ -1,0 +1,187 @@
+#include "materials/material.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace candela {
+
+namespace {
+
+template <std::size_t I>
+using ModelAt = std::variant_alternative_t<I, MaterialModel>;
+using AllTypes = std::make_index_sequence<std::variant_size_v<MaterialModel>>;
+
+template <std::size_t... I>
+constexpr auto type_names(std::index_sequence<I...>) {
+  return std::array{ModelAt<I>::kName...};
+}
+constexpr auto kTypeNames = type_names(AllTypes());
+constexpr FieldInfo kTypeField{
+    "type", FieldType::choice, 0, 0, "", "How the surface scatters light", Invalidates::scene, kTypeNames};
+
+ParameterRef opacity_of(Material& m) { return {&m.opacity, nullptr}; }
+ParameterRef emission_of(Material& m) { return {nullptr, &m.emission}; }
+
+const MaterialField kCommonFields[] = {
+    {{{"opacity", FieldType::real, 0, 1, "",
+       "Share of light that meets the surface; the rest passes straight on", Invalidates::scene},
+      [](Material& m) -> void* { return &m.opacity.value; }},
+     opacity_of},
+    {{{"emission",
+       FieldType::color,
+       0,
+       1e9,
+       "W/(m^2 sr)",
+       "Radiance that the surface sends out",
+       Invalidates::scene,
+       {},
+       true},
+      [](Material& m) -> void* { return &m.emission.value; }},
+     emission_of},
+    {{{"two_sided_emission", FieldType::boolean, 0, 0, "", "Emit from both sides, not only the normal's",
+       Invalidates::scene},
+      [](Material& m) -> void* { return &m.two_sided_emission; }}},
+};
+
+template <std::size_t Type, std::size_t Row>
+ParameterRef parameter_at(Material& material) {
+  static constexpr auto rows = ModelAt<Type>::rows();
+  auto& model = std::get<Type>(material.model);
+  return std::visit(
+      [&](auto member) -> ParameterRef {
+        using Value = std::decay_t<decltype(model.*member)>;
+        if constexpr (std::is_same_v<Value, NumberParameter>)
+          return {&(model.*member), nullptr};
+        else if constexpr (std::is_same_v<Value, ColorParameter>)
+          return {nullptr, &(model.*member)};
+        else
+          return {};
+      },
+      rows[Row].member);
+}
+
+template <std::size_t Type, std::size_t Row>
+void* value_at(Material& material) {
+  if (ParameterRef parameter = parameter_at<Type, Row>(material)) return parameter.value();
+  static constexpr auto rows = ModelAt<Type>::rows();
+  auto& model = std::get<Type>(material.model);
+  return std::visit([&](auto member) -> void* { return &(model.*member); }, rows[Row].member);
+}
+
+template <std::size_t Type>
+std::vector<MaterialField> fields_of_type() {
+  static constexpr auto rows = ModelAt<Type>::rows();
+  std::vector<MaterialField> out;
+  [&]<std::size_t... Row>(std::index_sequence<Row...>) {
+    (out.push_back({{rows[Row], value_at<Type, Row>},
+                    rows[Row].member.index() < 2 ? parameter_at<Type, Row> : nullptr,
+                    rows[Row].kept}),
+     ...);
+  }
+  (std::make_index_sequence<rows.size()>());
+  out.insert(out.end(), std::begin(kCommonFields), std::end(kCommonFields));
+  return out;
+}
+
+template <std::size_t... Type>
+auto fields_of_types(std::index_sequence<Type...>) {
+  return std::array{fields_of_type<Type>()...};
+}
+
+/// "emission.offset: …" of a texture's use.
+std::string texture_use_problem(const MaterialField& row, const ParameterRef& parameter,
+                                std::size_t texture_count) {
+  TextureUse& use = parameter.use();
+  if (use.texture < -1 || use.texture >= static_cast<int>(texture_count))
+    return fmt::format("{}.texture: there is no texture {}", row.key, use.texture);
+  for (const auto& part : texture_use_fields())
+    if (auto problem = field_problem(part, part.address(use)); !problem.empty())
+      return fmt::format("{}.{}: {}; give {}", row.key, part.key, problem, field_domain(part));
+  if (!is_finite(vec3(use.uv.scale, 0)))
+    return fmt::format("{}.uv_scale: not finite; give finite numbers", row.key);
+  if (!is_finite(vec3(use.uv.offset, 0)))
+    return fmt::format("{}.uv_offset: not finite; give finite numbers", row.key);
+  const vec3 offset = parameter.number != nullptr ? vec3(parameter.number->offset) : parameter.color->offset;
+  if (!is_finite(offset)) return fmt::format("{}.offset: not finite; give finite numbers", row.key);
+  return {};
+}
+
+} // namespace
+
+const FieldInfo& material_type_field() { return kTypeField; }
+std::span<const std::string_view> material_type_names() { return kTypeNames; }
+
+Material default_material(int type) {
+  Material material;
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    ((static_cast<int>(I) == type ? void(material.model.emplace<I>()) : void()), ...);
+  }
+  (AllTypes());
+  return material;
+}
+
+void change_type(Material& material, int type) {
+  if (material_type(material) == type) return;
+  Material changed = default_material(type);
+  changed.name = material.name;
+  for (const MaterialField& to : material_fields(changed)) {
+    const MaterialField* from = find_material_field(material_type(material), to.key);
+    if (from == nullptr || !from->kept || !to.kept) continue;
+    if (to.parameter != nullptr && from->parameter != nullptr &&
+        to.parameter(changed).copy_from(from->parameter(material)))
+      continue;
+    if (to.type == from->type) field_copy(to, to.address(changed), from->address(material));
+  }
+  material = std::move(changed);
+}
+
+std::span<const MaterialField> material_fields(int type) {
+  static const auto all = fields_of_types(AllTypes());
+  return all[static_cast<std::size_t>(type)];
+}
+std::span<const MaterialField> common_material_fields() { return kCommonFields; }
+
+const MaterialField* find_material_field(int type, std::string_view key) {
+  const auto rows = material_fields(type);
+  const auto found = std::ranges::find(rows, key, &FieldInfo::key);
+  return found == rows.end() ? nullptr : &*found;
+}
+
+ParameterRef find_parameter(Material& material, std::string_view key) {
+  const MaterialField* row = find_material_field(material_type(material), key);
+  return row == nullptr || row->parameter == nullptr ? ParameterRef() : row->parameter(material);
+}
+
+bool is_textured(const Material& material) {
+  bool any = false;
+  each_parameter(material, [&](const MaterialField&, const ParameterRef& p) { any |= p.use().texture >= 0; });
+  return any;
+}
+
+std::optional<vec3> inside_absorption(const MaterialModel& model) {
+  return std::visit(
+      [](const auto& m) -> std::optional<vec3> {
+        if constexpr (requires { m.absorption; })
+          return m.absorption;
+        else
+          return std::nullopt;
+      },
+      model);
+}
+
+std::string material_problem(const Material& material, std::size_t texture_count) {
+  auto& m = const_cast<Material&>(material);
+  for (const MaterialField& row : material_fields(material)) {
+    if (auto problem = field_problem(row, row.address(m)); !problem.empty())
+      return fmt::format("{}: {}; give {}", row.key, problem, field_domain(row));
+    if (row.parameter == nullptr) continue;
+    if (auto problem = texture_use_problem(row, row.parameter(m), texture_count); !problem.empty())
+      return problem;
+  }
+  return {};
+}
+
+} // namespace candela

@@ -1,0 +1,79 @@
+#pragma once
+// Materials of every model (materials/material_list.h) and their rows.
+
+#include "materials/material_list.h"
+
+#include <optional>
+#include <string>
+
+namespace candela {
+
+inline constexpr int kMaterialTypeCount = static_cast<int>(std::variant_size_v<MaterialModel>);
+
+struct Material {
+  std::string name;
+  MaterialModel model;
+  NumberParameter opacity = 1.0f;    ///< share of light that meets the surface at all
+  ColorParameter emission = vec3(0); ///< radiance, W/(m^2 sr)
+  bool two_sided_emission = false;   ///< otherwise only from the side of the geometric normal
+  bool operator==(const Material&) const = default;
+};
+
+/// A row of a material of one type.
+struct MaterialField : Field<Material> {
+  /// The parameter whose constant `address` is; null where it is a plain value.
+  ParameterRef (*parameter)(Material&) = nullptr;
+  bool kept = true; ///< as ModelRow has it
+};
+
+/// A choice over an int, the type by its index in the list: for files and panels.
+const FieldInfo& material_type_field();
+std::span<const std::string_view> material_type_names();
+inline int material_type(const Material& material) { return static_cast<int>(material.model.index()); }
+inline std::string_view material_type_name(const Material& material) {
+  return material_type_names()[material.model.index()];
+}
+
+/// What a material of the type is where nothing else is said.
+Material default_material(int type);
+/// Another type. Values that both types have (ModelRow::kept) stay, the others become the new type's
+/// defaults.
+void change_type(Material& material, int type);
+
+/// The rows of a material's values: those of its type, then those of all. The addresses are those in a
+/// Material of this type.
+std::span<const MaterialField> material_fields(int type);
+inline std::span<const MaterialField> material_fields(const Material& material) {
+  return material_fields(material_type(material));
+}
+/// The rows that all types have.
+std::span<const MaterialField> common_material_fields();
+/// Null where the type has no such key.
+const MaterialField* find_material_field(int type, std::string_view key);
+/// The parameter of that key; empty where the type has none, or a plain value.
+ParameterRef find_parameter(Material& material, std::string_view key);
+
+/// Whether any parameter is a texture.
+bool is_textured(const Material& material);
+/// Calls visit(row, parameter) for each parameter.
+template <class M, class Visit>
+void each_parameter(M& material, Visit visit) {
+  for (const MaterialField& row : material_fields(material))
+    if (row.parameter != nullptr) visit(row, row.parameter(const_cast<Material&>(material)));
+}
+
+/// What light that enters the surface fades by: sigma_a of the inside, 1/scene unit; nothing where no light
+/// enters.
+std::optional<vec3> inside_absorption(const MaterialModel& model);
+
+/// Calls use(closure) with the closure (bsdf/) of the model, at(parameter) being a parameter's value.
+template <class At, class Use>
+decltype(auto) with_closure(const MaterialModel& model, const At& at, Use use) {
+  return std::visit([&](const auto& m) -> decltype(auto) { return use(m.closure(at)); }, model);
+}
+
+/// The first thing that breaks its row or names a texture that there is not: "roughness: …"; empty where all
+/// is well.
+std::string material_problem(const Material& material, std::size_t texture_count);
+
+} // namespace candela

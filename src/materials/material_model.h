@@ -1,0 +1,36 @@
+#pragma once
+// What every model of a material offers. One model is one file of this folder, and an entry of the list in
+// materials/material.h.
+//
+//   kName        what files call it
+//   rows()       an std::array of ModelRow, one for each of its values
+//   closure(at)  the closure of bsdf/ at a hit: at(parameter) is the value of a parameter there
+//
+// One whose inside light may enter has, too:
+//
+//   absorption   sigma_a of the inside, 1/scene unit
+
+#include "materials/parameter.h"
+
+#include <array>
+#include <variant>
+
+namespace candela {
+
+/// The row of one value of a model.
+template <class Model>
+struct ModelRow : FieldInfo {
+  /// A parameter may be a texture; a plain value belongs to the inside, and is the same everywhere.
+  std::variant<NumberParameter Model::*, ColorParameter Model::*, vec3 Model::*, bool Model::*> member;
+  /// Whether it means the same as other models' values of the same key, so that a change of the type keeps
+  /// it.
+  bool kept = true;
+};
+
+// The rows that several models have alike.
+
+constexpr FieldInfo reflectance_row(std::string_view key, std::string_view help) {
+  return {key, FieldType::color, 0, 1, "", help};
+}
+
+} // namespace candela

@@ -1,0 +1,25 @@
+#pragma once
+// What every kind of texture offers.
+//
+//   kName            what files call it
+//   rows()           rows of its values (core/fields.h)
+//   color(use, uv)   linear Rec. 709, without the factor and offset of who uses it; `uv` is transformed
+//   already number(use, uv)  the same for a parameter that is one number memory_bytes()   of its data
+
+#include "textures/texture_use.h"
+
+#include <concepts>
+#include <string_view>
+
+namespace candela {
+
+template <class T>
+concept TextureKind = std::equality_comparable<T> && requires(const T& t, const TextureUse& use, vec2 uv) {
+  { T::kName } -> std::convertible_to<std::string_view>;
+  { T::rows() } -> std::convertible_to<std::span<const Field<T>>>;
+  { t.color(use, uv) } -> std::same_as<vec3>;
+  { t.number(use, uv) } -> std::same_as<float>;
+  { t.memory_bytes() } -> std::same_as<std::size_t>;
+};
+
+} // namespace candela

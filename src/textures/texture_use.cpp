@@ -1,0 +1,35 @@
+#include "textures/texture_use.h"
+
+namespace candela {
+
+namespace {
+
+constexpr std::string_view kChannels[] = {"rgb", "red", "green", "blue", "alpha"};
+constexpr std::string_view kFilters[] = {"nearest", "bilinear"};
+constexpr std::string_view kWraps[] = {"repeat", "clamp", "mirror"};
+constexpr std::string_view kSpaces[] = {"srgb", "linear"};
+constexpr auto kImage = Invalidates::image;
+
+const Field<TextureUse> kFields[] = {
+    {{"channel", FieldType::choice, 0, 0, "", "What is taken of a texel: a number takes the luminance of rgb",
+      kImage, kChannels},
+     [](TextureUse& u) -> void* { return &u.channel; }},
+    {{"filter", FieldType::choice, 0, 0, "", "Between texels: the nearest one, or all four blended", kImage,
+      kFilters},
+     [](TextureUse& u) -> void* { return &u.filter; }},
+    {{"wrap", FieldType::choice, 0, 0, "",
+      "Outside of the texture: itself again, its border, its mirror image", kImage, kWraps},
+     [](TextureUse& u) -> void* { return &u.wrap; }},
+    {{"color_space", FieldType::choice, 0, 0, "",
+      "What the picture's integers mean: colours as on a screen, or the values themselves", kImage, kSpaces},
+     [](TextureUse& u) -> void* { return &u.color_space; }},
+    {{"uv_rotation", FieldType::angle, -360, 360, "degrees",
+      "Turns the texture coordinates counter-clockwise, once they are scaled"},
+     [](TextureUse& u) -> void* { return &u.uv.rotation; }},
+};
+
+} // namespace
+
+std::span<const Field<TextureUse>> texture_use_fields() { return kFields; }
+
+} // namespace candela
