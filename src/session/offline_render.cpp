@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "render/film/accumulation.h"
 #include "render/film/film_view.h"
+#include "render/film/make_pass_renderer.h"
 
 #include <chrono>
 
@@ -71,8 +72,8 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
     limits.on_pass = [&](const Accumulation& a) {
       if (a.spp() > 0) options.progress({a.spp(), a.seconds(), a.fraction(until), a.rays()});
     };
-  CpuPassRenderer renderer(options.pass.threads);
-  const bool finished = accumulation.advance(renderer, *result.scene, document, limits);
+  const auto renderer = make_pass_renderer(options.pass.threads);
+  const bool finished = accumulation.advance(*renderer, *result.scene, document, limits);
   result.interrupted = !finished;
   result.spp = accumulation.spp();
 

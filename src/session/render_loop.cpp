@@ -33,7 +33,7 @@ int coarsest_lattice(double pixels, double seconds_per_sample) {
 RenderLoop::RenderLoop(SessionMonitor& monitor, WorkerThreads& workers, Mailbox& mailbox, SceneCache& scenes,
                        Presenter& presenter, const SessionOptions& options)
     : monitor_(monitor), mailbox_(mailbox), scenes_(scenes), presenter_(presenter),
-      on_publish_(options.on_publish), turns_{options.turns, options.variant}, renderer_(options.threads),
+      on_publish_(options.on_publish), turns_{options.turns, options.variant}, renderer_(make_pass_renderer(options.threads)),
       urgent_thread_([&workers] { workers.start(0); }), thread_([this, &workers] {
         workers.start(kNiceness);
         run();
@@ -261,7 +261,7 @@ void RenderLoop::render_pass(int most_samples, bool urgent) {
   }
   const Accumulation::Pass pass = accumulation_.next(current_.settings.stop, portion);
   const Accumulation::Step step =
-      accumulation_.step(pass, renderer_, *built_.scene, current_, stop_condition(pass, urgent));
+      accumulation_.step(pass, *renderer_, *built_.scene, current_, stop_condition(pass, urgent));
   if (step.rays.samples > 0 && (urgent || usual_seconds_ == 0))
     usual_seconds_ = step.seconds / static_cast<double>(step.rays.samples);
   if (!step.completed) return;

@@ -2,7 +2,7 @@
 // The render thread: takes Documents, restarts what they change, adds samples.
 
 #include "render/film/accumulation.h"
-#include "render/film/cpu_pass_renderer.h"
+#include "render/film/make_pass_renderer.h"
 #include "session/mailbox.h"
 #include "session/presenter.h"
 #include "session/render_session.h"
@@ -71,7 +71,7 @@ private:
   SceneCache::Built built_;      ///< as SceneCache::newest()
   std::uint64_t generation_ = 0; ///< of the Document that restarted last
   Accumulation accumulation_;
-  CpuPassRenderer renderer_;
+  std::unique_ptr<PassRenderer> renderer_;
   bool active_ = false;      ///< there is something to add samples to
   bool urgent_ = true;       ///< the user waits for the first pass
   double usual_seconds_ = 0; ///< that a sample took in the newest first picture, of any accumulation
