@@ -22,6 +22,7 @@ struct ConstantLightModel {
 struct ConstantLight {
   Spectrum radiance{0};
 
+  static constexpr std::string_view kName = "constant";
   static constexpr LightKind kind = LightKind::infinite;
 
   Spectrum radiance_from(vec3) const { return radiance; }

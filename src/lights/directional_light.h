@@ -26,6 +26,7 @@ struct DirectionalLight {
   vec3 direction{0, -1, 0}; ///< unit, along which it travels
   Spectrum irradiance{0};   ///< W/m^2 on a plane that faces it
 
+  static constexpr std::string_view kName = "directional";
   static constexpr LightKind kind = LightKind::delta_direction;
 
   std::optional<LightSample> sample(const LightSamplingContext&, vec2) const {

@@ -12,6 +12,7 @@ struct DiscLight {
   Spectrum emission{0};
   bool two_sided = false;
 
+  static constexpr std::string_view kName = "disc";
   static constexpr LightKind kind = LightKind::area;
 
   std::optional<LightSample> sample(const LightSamplingContext& ctx, vec2 u) const {

@@ -48,6 +48,7 @@ struct EnvironmentLight {
   mat3 world_from_map{1.0f}; ///< a rotation
   Spectrum factor{1};
 
+  static constexpr std::string_view kName = "environment";
   static constexpr LightKind kind = LightKind::infinite;
 
   Spectrum radiance_from(vec3 direction) const { return factor * map->radiance(direction * world_from_map); }

@@ -15,6 +15,7 @@
 namespace candela {
 
 /// What every light offers.
+/// - kName: what people call it.
 /// - kind: how it can be found.
 /// - sample: nothing where the light cannot be seen from the point, or where it has nothing for its domain.
 ///   `u` in [0, 1)^2.
@@ -32,6 +33,7 @@ namespace candela {
 /// - typical_irradiance(): else, what it would be somewhere, for a scale.
 template <class L>
 concept LightModel = requires(const L& light, const LightSamplingContext& ctx, vec2 u, vec3 v, float radius) {
+  { L::kName } -> std::convertible_to<std::string_view>;
   { L::kind } -> std::convertible_to<LightKind>;
   { light.sample(ctx, u) } -> std::same_as<std::optional<LightSample>>;
   { light.pdf(ctx, v, v) } -> std::same_as<float>;
@@ -63,6 +65,9 @@ static_assert(are_light_models(static_cast<const Light*>(nullptr)));
 
 // As LightModel's members of the same names.
 
+inline std::string_view light_name(const Light& light) {
+  return visit_variant([](const auto& l) { return l.kName; }, light);
+}
 inline LightKind light_kind(const Light& light) {
   return visit_variant([](const auto& l) { return l.kind; }, light);
 }

@@ -6,6 +6,7 @@
 #include "lights/light_sampling_context.h"
 
 #include <optional>
+#include <string_view>
 
 namespace candela {
 

@@ -61,6 +61,7 @@ struct PointLight {
   Spectrum intensity{0}; ///< W/sr
   vec3 attenuation{0, 0, 1};
 
+  static constexpr std::string_view kName = "point";
   static constexpr LightKind kind = LightKind::delta_position;
 
   std::optional<LightSample> sample(const LightSamplingContext& ctx, vec2) const {

@@ -14,6 +14,7 @@ struct RectangleLight {
   Spectrum emission{0};
   bool two_sided = false;
 
+  static constexpr std::string_view kName = "rectangle";
   static constexpr LightKind kind = LightKind::area;
 
   RectangleLight() = default;

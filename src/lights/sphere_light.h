@@ -12,6 +12,7 @@ struct SphereLight {
   Spectrum emission{0};
   bool two_sided = false;
 
+  static constexpr std::string_view kName = "sphere";
   static constexpr LightKind kind = LightKind::area;
 
   /// Of the cone that a sphere covers.

@@ -45,6 +45,7 @@ struct SpotLight {
   Spectrum intensity{0};                  ///< W/sr within the beam
   vec3 attenuation{0, 0, 1};
 
+  static constexpr std::string_view kName = "spot";
   static constexpr LightKind kind = LightKind::delta_position;
 
   /// Share of the intensity at an angle to the axis.

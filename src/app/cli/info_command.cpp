@@ -20,13 +20,6 @@ nlohmann::ordered_json number_json(float x) {
 
 nlohmann::ordered_json vector_json(vec3 v) { return {number_json(v.x), number_json(v.y), number_json(v.z)}; }
 
-const char* light_name(const Light& light) {
-  static constexpr const char* kNames[] = {"rectangle",   "triangle", "sphere", "disc",       "point",
-                                           "directional", "constant", "spot",   "environment"};
-  static_assert(std::size(kNames) == std::variant_size_v<Light>);
-  return kNames[light.index()];
-}
-
 /// What of the camera decides its picture, whichever kind it is.
 nlohmann::ordered_json camera_json(const Document& document) {
   const Camera& camera = document.scene.camera;
@@ -99,7 +92,7 @@ int run_info(const SceneOptions& options) {
     out["bounds"] = {{"min", vector_json(bounds.lo)}, {"max", vector_json(bounds.hi)}};
   nlohmann::ordered_json lights = nlohmann::ordered_json::object();
   for (const Light& light : scene->lights()) {
-    auto& count = lights[light_name(light)];
+    auto& count = lights[std::string(light_name(light))];
     count = count.is_null() ? 1 : count.get<int>() + 1;
   }
   out["lights"] = lights;
