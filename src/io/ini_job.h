@@ -29,7 +29,7 @@ struct IniJob {
 ///
 /// - imageWidth, imageHeight, samplesPerPixel: film.width, film.height, stop.spp.
 /// - pathContinuationProb: path.rr = fixed with path.rr_probability, and path.rr_depth = 1, as the assignment
-///   draws at every bounce: the camera's segment and direct light are safe, every continuation is by chance.
+///   draws at every bounce: the camera's segment and direct light are safe, every continuation is random.
 /// - directLightingOnly: path.max_depth = 2.
 /// - numDirectLightingSamples: path.light_samples.
 /// - As the assignment's reference pictures are shown: display.tone_map = reinhard, display.exposure = -0.65.

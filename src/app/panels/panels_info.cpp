@@ -85,9 +85,9 @@ void statistics_panel(Ui& ui, ViewerState& state) {
              "From the last edit that restarted to its first image");
   const MeterReadings& meter = state.meter;
   auto ms = [](double value) { return value > 0 ? fmt::format("{:.1f} ms", value) : std::string("…"); };
-  ui.readout("hand to picture", ms(meter.first_ms),
+  ui.readout("input latency", ms(meter.first_ms),
              "From an input to its first picture on the screen; the median of the last 32");
-  ui.readout("hand to full picture", ms(meter.full_ms), "The same to one sample in every pixel");
+  ui.readout("full-picture latency", ms(meter.full_ms), "The same to one sample in every pixel");
   ui.readout(
       "frame", fmt::format("{}, 99 %: {}", ms(meter.frame_ms), ms(meter.frame_p99_ms)),
       "Of the window, until it is on the screen: the median of the last 256, and what 99 % of them keep to");

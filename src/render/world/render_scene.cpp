@@ -104,7 +104,6 @@ void SceneLights::add_emitter(std::uint64_t emitter, const SurfaceMaterial& mate
 }
 
 void SceneLights::add_emitters(const Progress* progress) {
-  auto aimed = [](const SurfaceMaterial& m) { return expected_radiance(m); };
   bool any = false;
   for (const SurfaceMaterial& m : materials_) any |= m.emissive;
   if (!any) return;
@@ -118,7 +117,8 @@ void SceneLights::add_emitters(const Progress* progress) {
     vec3 n = c / double_area;
     if (glm::dot(n, outside) < 0) n = -n;
     add_emitter(emitter, m,
-                TriangleLight{p0, p1 - p0, p2 - p0, n, 0.5f * double_area, aimed(m), m.two_sided_emission});
+                TriangleLight{p0, p1 - p0, p2 - p0, n, 0.5f * double_area, expected_radiance(m),
+                              m.two_sided_emission});
   };
 
   for (const RectangleGeometry& r : g.rectangles()) {
@@ -128,7 +128,7 @@ void SceneLights::add_emitters(const Progress* progress) {
     if (!m.emissive || std::abs(glm::dot(r.edge_x, r.edge_y)) > 1e-6f * lengths) continue;
     if (!(length_squared(glm::cross(r.edge_x, r.edge_y)) > 0)) continue;
     add_emitter(r.first_triangle, m,
-                RectangleLight(r.corner, r.edge_x, r.edge_y, aimed(m), m.two_sided_emission));
+                RectangleLight(r.corner, r.edge_x, r.edge_y, expected_radiance(m), m.two_sided_emission));
     light_of_emitter_.set(r.first_triangle + 1, light_of_emitter_[r.first_triangle]);
   }
   const TriangleSet& world = g.world();
@@ -143,12 +143,13 @@ void SceneLights::add_emitters(const Progress* progress) {
   for (std::size_t i = 0; i < g.spheres().size(); ++i)
     if (const SurfaceMaterial& m = materials_[g.sphere_materials()[i]]; m.emissive)
       add_emitter(g.sphere_emitter(i), m,
-                  SphereLight{g.spheres()[i].center, g.spheres()[i].radius, aimed(m), m.two_sided_emission});
+                  SphereLight{g.spheres()[i].center, g.spheres()[i].radius, expected_radiance(m),
+                              m.two_sided_emission});
   for (std::size_t i = 0; i < g.discs().size(); ++i)
     if (const SurfaceMaterial& m = materials_[g.disc_materials()[i]]; m.emissive)
       add_emitter(g.disc_emitter(i), m,
-                  DiscLight{g.discs()[i].center, g.discs()[i].normal, g.discs()[i].radius, aimed(m),
-                            m.two_sided_emission});
+                  DiscLight{g.discs()[i].center, g.discs()[i].normal, g.discs()[i].radius,
+                            expected_radiance(m), m.two_sided_emission});
   for (const Geometry::Placed& p : g.placed()) {
     auto shines = [&](std::uint32_t material) { return materials_[material].emissive; };
     if (std::ranges::none_of(p.slot_materials, shines)) continue;
