@@ -33,8 +33,9 @@ int coarsest_lattice(double pixels, double seconds_per_sample) {
 RenderLoop::RenderLoop(SessionMonitor& monitor, WorkerThreads& workers, Mailbox& mailbox, SceneCache& scenes,
                        Presenter& presenter, const SessionOptions& options)
     : monitor_(monitor), mailbox_(mailbox), scenes_(scenes), presenter_(presenter),
-      on_publish_(options.on_publish), turns_{options.turns, options.variant}, renderer_(make_pass_renderer(options.threads)),
-      urgent_thread_([&workers] { workers.start(0); }), thread_([this, &workers] {
+      on_publish_(options.on_publish), turns_{options.turns, options.variant},
+      renderer_(make_pass_renderer(options.threads)), urgent_thread_([&workers] { workers.start(0); }),
+      thread_([this, &workers] {
         workers.start(kNiceness);
         run();
       }) {}
