@@ -24,7 +24,7 @@ template <std::size_t I, class F, class V>
 
 } // namespace detail
 
-/// f(alternative/// f(alternative) of a variant that has a value; all results of one type. libstdc++'s
+/// f(alternative) of a variant that has a value; all results of one type. libstdc++'s
 /// std::visit is a switch for up to eleven alternatives and a call through a table for more, which the
 /// compiler does not inline. This is a chain of comparisons of the index (clang makes a switch of it): put
 /// common alternatives first.

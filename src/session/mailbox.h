@@ -59,12 +59,11 @@ public:
   void begin_pass(Locked) { hold_ = false; }
   bool closed(Locked) const { return closing_; }
 
-  const std::atomic<bool>& outdated() const {
-    return outdated_;
-  } ///< the pass in flight shows an old Document
-  const std::atomic<bool>& hold() const {
-    return hold_;
-  } ///< the pass in flight is to wait; it is continued later
+  // What the pass in flight polls.
+  /// It shows an old Document.
+  const std::atomic<bool>& outdated() const { return outdated_; }
+  /// It is to wait; it is continued later.
+  const std::atomic<bool>& hold() const { return hold_; }
   const std::atomic<bool>& closing() const { return closing_; }
 
 private:
