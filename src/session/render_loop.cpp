@@ -23,8 +23,10 @@ constexpr int kUsualLattice = 8;
 
 int coarsest_lattice(double pixels, double seconds_per_sample) {
   if (seconds_per_sample <= 0) return kUsualLattice;
-  // The finest level that is there soon enough; the finer one may take less time, not more.
-  constexpr std::pair<int, double> kWorth[] = {{4, 6e-3}, {8, 12e-3}, {16, 30e-3}, {32, 60e-3}, {64, 80e-3}};
+  // The finest level that is there soon enough; the finer one may take less time, not more. A whole picture
+  // that is there before the next frame needs no coarser one, which would hold its place for a frame.
+  constexpr std::pair<int, double> kWorth[] = {{1, 12e-3},  {4, 6e-3},   {8, 12e-3},
+                                               {16, 30e-3}, {32, 60e-3}, {64, 80e-3}};
   for (auto [lattice, seconds] : kWorth)
     if (pixels / (lattice * lattice) * seconds_per_sample <= seconds) return lattice;
   return 128;
