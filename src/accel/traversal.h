@@ -177,7 +177,7 @@ template <class F, bool any_hit, class Cost>
         if ((lanes & (lanes - 1)) == 0) {
           current = node.child[static_cast<std::size_t>(std::countr_zero(lanes))];
         } else if constexpr (any_hit) {
-          // Any hit will do, so the order is worth no sorting: 6 to 12 % of the time of a shadow ray.
+          // Any hit will do, so the order needs no sorting: 6 to 12 % of the time of a shadow ray.
           current = simd::take_first(t_enter, node.child, lanes, top);
           top += std::popcount(lanes) - 1;
         } else {

@@ -21,7 +21,7 @@ enum class Dimension : std::uint32_t {
   light_position,   ///< which light next-event estimation samples, and where on it
   bsdf_lobe,        ///< which lobe scatters
   bsdf_direction,   ///< where to
-  russian_roulette, ///< whether the path goes on
+  russian_roulette, ///< whether the path continues
   opacity,          ///< whether a ray hits a partly transparent surface
   count
 };

@@ -50,7 +50,7 @@ struct PathSettings {
   int max_depth = -1; ///< 1: emitters seen directly, 2: direct light, -1: no limit
   RussianRoulette rr = RussianRoulette::throughput;
   int rr_depth = 1; ///< the segment after which Russian roulette starts
-  /// Of rr = throughput: what carries less than this goes on with the chance of throughput / threshold.
+  /// Of rr = throughput: what carries less than this continues with the probability throughput / threshold.
   float rr_threshold = 0.35f;
   float rr_probability = 0.9f; ///< chance to go on, of rr = fixed
   PathComponent component = PathComponent::all;

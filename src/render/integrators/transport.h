@@ -46,7 +46,7 @@ inline bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& s
 /// The end of a shadow ray.
 struct ShadowTarget {
   vec3 point;    ///< at t = 1 of the ray, but for rounding; unused if `infinite`
-  bool infinite; ///< the ray goes on for ever
+  bool infinite; ///< the ray does not end
 };
 /// Share of the light that comes through where a shadow ray goes: 0 or 1, or the product of what the
 /// transparent surfaces and the media there let pass. `media` of its origin are null in scenes without any.

@@ -40,7 +40,7 @@ public:
   }
 
 private:
-  // Recursion is as deep as kBranchingDepth; behind that the loop goes on alone.
+  // Recursion is as deep as kBranchingDepth; behind that the loop continues alone.
   void trace_ray(SpecularRay path, int depth) {
     for (; depth <= last_depth_ && !stop_.asked(); ++depth) {
       set_sampler(path, depth);
