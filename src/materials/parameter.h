@@ -28,6 +28,12 @@ struct Parameter {
   }
 };
 
+/// Of a field's value (core/model_fields.h): the constant.
+template <class T>
+void* value_address(Parameter<T>& parameter) {
+  return &parameter.value;
+}
+
 using NumberParameter = Parameter<float>;
 using ColorParameter = Parameter<vec3>;
 

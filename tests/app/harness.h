@@ -164,6 +164,15 @@ public:
     key_down(key);
     key_up(key);
   }
+  /// A key with Ctrl, perhaps with Shift, then `frames` more frames.
+  void control(Key k, bool shift = false, int frames = 0) {
+    key_down(Key::left_control);
+    if (shift) key_down(Key::left_shift);
+    key(k);
+    if (shift) key_up(Key::left_shift);
+    key_up(Key::left_control);
+    frame(frames);
+  }
   void type(const std::string& text) {
     for (char c : text) send(TextTyped{static_cast<char32_t>(c)});
   }

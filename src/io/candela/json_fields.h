@@ -46,6 +46,17 @@ bool read_row(std::span<const Field<Owner>> rows, std::type_identity_t<Owner>& o
   return false;
 }
 
+/// Whether one of `types` types has a value that the object's own type has not. It is read into a default
+/// object of that type and dropped, so that a malformed value is an error whatever the object's type is.
+template <class MakeDefault, class Read>
+bool read_for_other_types(int types, MakeDefault make_default, Read read) {
+  for (int type = 0; type < types; ++type) {
+    auto other = make_default(type);
+    if (read(other)) return true;
+  }
+  return false;
+}
+
 /// The keys of the rows and some more.
 template <class Owner>
 std::vector<std::string_view> keys_of(std::span<const Field<Owner>> rows,

@@ -135,9 +135,7 @@ TEST(CompareErrorsUi, ReferencesComeFromFilesAndVariants) {
   write_linear_image({9, 9, std::vector<vec3>(81, vec3(0.5f))}, folder / "small.exr");
   auto load = [&](const std::string& path) {
     hand.click("compare.reference_path");
-    hand.key_down(Key::left_control);
-    hand.key(Key::a);
-    hand.key_up(Key::left_control);
+    hand.control(Key::a);
     hand.type(path);
     hand.click("compare.load_reference");
   };

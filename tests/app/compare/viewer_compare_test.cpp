@@ -147,9 +147,7 @@ TEST(ViewerCompareUi, WhatIsSharedAndWhatIsNot) {
   EXPECT_EQ(hand.document().settings.path.max_depth, -1);
   EXPECT_EQ(other().settings.path.max_depth, 3);
   hand.choose("compare.edited", "A");
-  hand.key_down(Key::left_control);
-  hand.key(Key::z);
-  hand.key_up(Key::left_control);
+  hand.control(Key::z);
   hand.frame(2);
   EXPECT_EQ(hand.document().settings.path.max_depth, -1);
 

@@ -119,9 +119,7 @@ TEST(ViewerBookmarksUi, AreAddedRenamedVisitedAndDeleted) {
   hand.click("bookmark.add");
   ASSERT_EQ(hand.document().scene.bookmarks.size(), 2u);
   hand.click("bookmark.name");
-  hand.key_down(Key::left_control);
-  hand.key(Key::a);
-  hand.key_up(Key::left_control);
+  hand.control(Key::a);
   hand.type("near");
   hand.key(Key::enter);
   hand.frame();
@@ -130,9 +128,7 @@ TEST(ViewerBookmarksUi, AreAddedRenamedVisitedAndDeleted) {
   hand.click("bookmarks/0");
   EXPECT_EQ(hand.document().scene.camera, start);
   hand.click("bookmark.name");
-  hand.key_down(Key::left_control);
-  hand.key(Key::a);
-  hand.key_up(Key::left_control);
+  hand.control(Key::a);
   hand.type("near");
   hand.click("bookmark.rename");
   EXPECT_EQ(hand.document().scene.bookmarks[0].name, "near 2") << "names stay apart";
@@ -141,9 +137,7 @@ TEST(ViewerBookmarksUi, AreAddedRenamedVisitedAndDeleted) {
   EXPECT_EQ(hand.document().scene.camera, there);
   hand.key(Key::digit_7);
   EXPECT_EQ(hand.document().scene.camera, there) << "there is none";
-  hand.key_down(Key::left_control);
-  hand.key(Key::digit_1);
-  hand.key_up(Key::left_control);
+  hand.control(Key::digit_1);
   EXPECT_EQ(hand.document().scene.bookmarks[0].camera, there);
 
   EXPECT_NE(candela_json(hand.document(), ".").find("\"bookmarks\": ["), std::string::npos);

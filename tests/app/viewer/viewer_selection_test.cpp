@@ -192,9 +192,7 @@ TEST(ViewerSelectionUi, ARegionAccumulatesAlone) {
   ViewerHarness hand(document);
   hand.wait_until("a picture is there", [&] { return hand.state().picture && hand.state().status.spp > 0; });
   const Camera camera = hand.document().scene.camera;
-  hand.key_down(Key::left_control);
-  hand.key(Key::b);
-  hand.key_up(Key::left_control);
+  hand.control(Key::b);
   EXPECT_TRUE(hand.state().region_armed);
   const PixelRect rect = hand.viewer.picture_rect();
   const vec2 lo(rect.x + rect.width / 4, rect.y + rect.height / 4);

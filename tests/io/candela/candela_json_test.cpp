@@ -161,5 +161,13 @@ TEST_F(CandelaJson, ReadsBookmarksAndRefusesOddOnes) {
                          "s.json:1:29: bookmarks: ", {"keep at most 10000"}));
 }
 
+TEST_F(CandelaJson, IgnoresALightsValuesOfOtherTypesWithAWarning) {
+  auto loaded =
+      read(R"({"candela": 1, "lights": [{"type": "constant", "color": 2, "position": [1, 2, 3]}]})");
+  EXPECT_EQ(loaded.document.scene.lights.at(0), (LightDesc{"", ConstantLightModel{}, vec3(2)}));
+  EXPECT_EQ(files.warnings(loaded)[0],
+            "1 x s.json:1:60: lights[0].position: a light of the type constant has no such value");
+}
+
 } // namespace
 } // namespace candela
