@@ -13,7 +13,7 @@ namespace candela {
 LightDesc read_json_light(JsonValue object, const std::string& element, SceneBuilder& builder,
                           const std::string& folder);
 
-/// "image": …, of a panorama that came from no file.
+/// The member "image" of a panorama without a file.
 std::string json_panorama_member(const Panorama& panorama);
 
 } // namespace candela

@@ -26,7 +26,7 @@ struct ObjReader : ::testing::Test {
     files.write("x.obj", obj);
     return files.error("x.obj", code);
   }
-  /// The material that the only slot of a triangle gets.
+  /// The material of a triangle's only slot.
   Material material(const std::string& mtl) {
     LoadedScene loaded = read(std::string(kTriangle), "newmtl m\n" + mtl);
     warnings = files.warnings(loaded);
