@@ -32,7 +32,7 @@ Document read_obj_scene(const FoundFile& file, const PathPolicy& policy, Warning
     sky.name = "sky";
     sky.model = ConstantLightModel{};
     document.scene.lights.push_back(std::move(sky));
-    warnings.add({file.shown}, "nothing shines: a constant light is added");
+    warnings.add({file.shown}, "nothing emits light: a constant light is added");
   }
   return document;
 }

@@ -46,7 +46,7 @@ LoadedScene read_here(const std::string& path, const ReadOptions& options) {
   }
   loaded.files[canonical_path(path)] = stamp;
   const SceneDesc& scene = loaded.document.scene;
-  if (!has_light(scene)) warnings.add({path}, "nothing in the scene shines: the picture will be black");
+  if (!has_light(scene)) warnings.add({path}, "nothing in the scene emits light: the picture will be black");
   loaded.warnings = warnings.warnings();
   return loaded;
 }

@@ -141,8 +141,8 @@ int SceneBuilder::default_material() {
 int SceneBuilder::missing_material(const MeshFile& file, std::size_t slot, const Location& where) {
   const std::string& name = file.mesh->slot_names[slot];
   constexpr std::size_t kLongestName = 100;
-  warnings_.add(where, name.empty() ? "faces without a material: a grey is taken"
-                                    : fmt::format("there is no material '{}': a grey is taken",
+  warnings_.add(where, name.empty() ? "faces without a material: a grey one is used"
+                                    : fmt::format("there is no material '{}': a grey one is used",
                                                   name.substr(0, kLongestName)));
   return default_material();
 }

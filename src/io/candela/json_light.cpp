@@ -48,7 +48,7 @@ std::shared_ptr<const Panorama> read_inline(JsonValue object, const std::string&
   return panorama;
 }
 
-/// What "files" lists.
+/// Reads "files".
 std::vector<FoundFile> read_faces(JsonValue array, const std::string& element, const PathPolicy& policy,
                                   const std::string& folder) {
   expect(array, JsonType::array, element);

@@ -57,7 +57,7 @@ void read_textured(JsonValue object, const MaterialField& row, const ParameterRe
                       "give a \"texture\", or a value instead of the object");
 }
 
-/// Whether the material's type has such a value.
+/// Reads a value of the material's type; false if the type has no such key.
 bool read_value(Material& material, JsonValue key, JsonValue value, const std::string& element,
                 const JsonTextureNames& textures) {
   const MaterialField* row = find_material_field(material_type(material), key.string());

@@ -1,4 +1,4 @@
-// Scenes saved, reloaded, given up; questions before anything is lost; what the window remembers.
+// Saving, reloading and cancelling scenes; questions before edits are lost; preferences.
 
 #include "app/harness.h"
 #include "io/candela/candela_json.h"

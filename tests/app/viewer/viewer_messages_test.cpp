@@ -1,4 +1,4 @@
-// What the window tells, where, and for how long.
+// Messages of the window: positions and duration.
 
 #include "app/figures/typeface.h"
 #include "app/harness.h"
@@ -121,7 +121,7 @@ TEST(ViewerMessagesUi, AnErrorGivesWayToWhatIsTypedInTheLab) {
   hand.key(Key::f2);
   hand.frame(3);
   fail_to_open(hand, "/nowhere/a.json");
-  // A field as high up as there is: the first of the lesson on show.
+  // The topmost field: the first one of the current lesson.
   std::optional<WidgetRecord> field;
   for (const WidgetRecord& w : hand.viewer.widgets())
     if (w.name.starts_with("lab.") && w.hi.x < 452 &&

@@ -92,7 +92,7 @@ TEST(ViewerNavigationUi, UndoTakesBackGestureByGesture) {
   const Document orbited = hand.document();
   hand.frame();
   EXPECT_EQ(hand.state().undo_name, "Camera");
-  for (int i = 0; i < 3; ++i) hand.scroll({400, 300}, 1); // one step: the hand did not rest
+  for (int i = 0; i < 3; ++i) hand.scroll({400, 300}, 1); // one step: there was no pause
   hand.frame(3, 1.0);
   const Document zoomed = hand.document();
   hand.type_into("display.exposure", "2");

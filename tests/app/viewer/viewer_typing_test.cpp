@@ -1,4 +1,4 @@
-// Who has the keyboard, and what comes of what is typed.
+// Keyboard focus, and the handling of typed text.
 
 #include "app/harness.h"
 #include "io/candela/candela_json.h"
@@ -28,7 +28,7 @@ void settle(ViewerHarness& hand) {
   hand.frame(2);
 }
 
-/// What keys that are not meant for the view leave as it is.
+/// State that keys must not change unless they are meant for the view.
 struct View {
   Camera camera;
   bool compares, panels, help, paused;
@@ -47,7 +47,7 @@ TEST(ViewerTypingUi, SaveAsTakesTheKeyboardAtOnce) {
   ViewerHarness hand(test_document(), {.screenshot_folder = folder.path()});
   hand.wait_for_picture();
   const View before = view_of(hand);
-  // All in one go, as a hurried hand or another program does it.
+  // All events at once, as from a fast user or another program.
   for (Key key : {Key::left_control, Key::left_shift, Key::s}) hand.viewer.handle(KeyChanged{key, true});
   for (Key key : {Key::s, Key::left_shift, Key::left_control}) hand.viewer.handle(KeyChanged{key, false});
   type_fast(hand, kEveryLetter);
@@ -308,7 +308,7 @@ TEST(ViewerTypingUi, NoTooltipLiesOverWhatIsTyped) {
   EXPECT_EQ(tooltips(), 1);
 }
 
-// The mesh of an exporter that writes world coordinates: its own origin is nowhere near it.
+// The mesh of an exporter that writes world coordinates, far from its origin.
 TEST(ViewerTypingUi, TypedScaleAndRotationAreAboutTheMiddle) {
   auto mesh = std::make_shared<Mesh>();
   mesh->positions = {{4, 0, 0}, {6, 0, 0}, {4, 2, 0}};

@@ -1,4 +1,4 @@
-// What Candela JSON must not be, and where the reader says so.
+// Invalid Candela JSON, and the locations of the errors.
 
 #include "io/candela_json_files.h"
 

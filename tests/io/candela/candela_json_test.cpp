@@ -117,8 +117,9 @@ TEST_F(CandelaJson, ImportsTheMaterialsOfAnObj) {
   EXPECT_EQ(mesh_of(loaded, 2).name, "oak");
   EXPECT_EQ(s.materials[3].name, "oak/leaf");
   EXPECT_EQ(s.textures.size(), 1u) << "a texture is read once";
-  EXPECT_EQ(files.warnings(loaded),
-            std::vector<std::string>{"1 x s.json: nothing in the scene shines: the picture will be black"});
+  EXPECT_EQ(
+      files.warnings(loaded),
+      std::vector<std::string>{"1 x s.json: nothing in the scene emits light: the picture will be black"});
 }
 
 TEST_F(CandelaJson, TakesAByteOrderMarkAndWindowsLineEnds) {

@@ -1,4 +1,4 @@
-// What CS123 scenes must not be, and where the reader says so.
+// Invalid CS123 scenes, and the locations of the errors.
 
 #include "io/cs123/cs123_files.h"
 
@@ -100,7 +100,7 @@ TEST_F(Cs123Reader, CapsDepthAndGrowth) {
   EXPECT_TRUE(
       test::says(error(root(deep + "<object type='primitive' name='sphere'/>" + shut), ExitCode::limit),
                  "s.xml:2:", {"64 levels"}));
-  // Each master holds two of the one before: 2^40 spheres in 40 lines.
+  // Each master object has two instances of the previous one: 2^40 spheres in 40 lines.
   auto doubling = [](const std::string& first) {
     std::string trees = "<object type='tree' name='t0'>" + first + "</object>\n";
     for (int i = 1; i <= 40; ++i) {

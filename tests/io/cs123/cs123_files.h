@@ -1,12 +1,12 @@
 #pragma once
-// Scenes of the CS123 format, and what reading them says.
+// Scenes of the CS123 format, and the result of reading them.
 
 #include "io/scene_files.h"
 #include "support/materials.h"
 
 namespace candela::test {
 
-/// Two triangles of the materials a and b, of which the MTL file has only a.
+/// Two triangles with the materials a and b; the MTL file has only a.
 inline constexpr const char* kCs123Obj =
     "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n";
 
@@ -25,14 +25,14 @@ struct Cs123Reader : ::testing::Test {
     files.write("s.xml", "<scenefile>\n" + inside + "\n</scenefile>\n");
     return files.error("s.xml", code);
   }
-  /// A scene of one sphere under transformations.
+  /// A scene of one sphere with transformations.
   static std::string root(const std::string& transblock) {
     return "<object type=\"tree\" name=\"root\"><transblock>" + transblock + "</transblock></object>";
   }
   static std::string sphere(const std::string& transformations) {
     return root(transformations + "<object type=\"primitive\" name=\"sphere\"/>");
   }
-  /// Where the point of a primitive goes, whose axis is y, while that of our shapes is z.
+  /// The transformed point of a primitive, whose axis is y; that of our shapes is z.
   vec3 transformed(const std::string& transformations, vec3 p) {
     return transform_point(read(sphere(transformations)).document.scene.instances.at(0).world_from_object,
                            {p.x, -p.z, p.y});

@@ -1,4 +1,4 @@
-// Materials of CS123 scenes: of MTL files, and their own.
+// Materials of CS123 scenes, from MTL files and from objects.
 
 #include "io/cs123/cs123_files.h"
 
@@ -28,7 +28,7 @@ TEST_F(Cs123Reader, TfOfOnesIsClearAndAnyOtherIsToldOf) {
   };
   auto clear = glass("1 1 1");
   EXPECT_EQ(color(clear.document.scene.materials[0], "absorption"), vec3(0));
-  EXPECT_EQ(clear.warnings.size(), 1u) << "that nothing shines";
+  EXPECT_EQ(clear.warnings.size(), 1u) << "that nothing emits light";
   auto tinted = glass("0.9 0.5 0.25");
   EXPECT_EQ(color(tinted.document.scene.materials[0], "absorption"), vec3(0.9f, 0.5f, 0.25f));
   EXPECT_EQ(files.warnings(tinted)[0],

@@ -1,4 +1,4 @@
-// What CS123 scenes place: the camera, objects, meshes.
+// CS123 scenes: camera, transformations, objects, meshes.
 
 #include "io/cs123/cs123_files.h"
 
@@ -33,7 +33,7 @@ TEST_F(Cs123Reader, Camera) {
 
 TEST_F(Cs123Reader, TransformationsComposeInTheOrderListed) {
   EXPECT_EQ(transformed("", vec3(1, 2, 3)), vec3(1, 2, 3));
-  // The last one listed is the first to be applied.
+  // The last listed transformation is applied first.
   EXPECT_EQ(transformed("<translate x='1' y='0' z='0'/><scale x='2' y='3' z='4'/>", vec3(1)), vec3(3, 3, 4));
   EXPECT_EQ(transformed("<scale x='2' y='3' z='4'/><translate x='1' y='0' z='0'/>", vec3(1)), vec3(4, 3, 4));
   EXPECT_EQ(transformed("<rotate x='0' y='0' z='1' angle='90'/>", vec3(1, 0, 0)), vec3(0, 1, 0));
@@ -65,7 +65,7 @@ TEST_F(Cs123Reader, Meshes) {
   EXPECT_EQ(diffuse(1, 1), vec3(0, 0, 1));
   EXPECT_TRUE(loaded.warnings.empty());
   auto bare = read(root("<object type='primitive' name='mesh' filename='m\\m.obj'/>"));
-  EXPECT_EQ(files.warnings(bare)[0], "1 x s.xml:2:82: there is no material 'b': a grey is taken");
+  EXPECT_EQ(files.warnings(bare)[0], "1 x s.xml:2:82: there is no material 'b': a grey one is used");
 }
 
 TEST_F(Cs123Reader, PrimitivesFillTheUnitCube) {
@@ -120,7 +120,7 @@ TEST_F(Cs123Reader, IgnoresAndCounts) {
       (std::vector<std::string>{"1 x s.xml:2:13: <aspectratio> is ignored",
                                 "2 x s.xml:2:46: <hut> is ignored", "1 x s.xml:2:169: <blend> is ignored",
                                 "1 x s.xml:2:192: what follows the object of a transblock is ignored",
-                                "1 x s.xml: nothing in the scene shines: the picture will be black"}))
+                                "1 x s.xml: nothing in the scene emits light: the picture will be black"}))
       << "in the order of reading";
 }
 

@@ -156,7 +156,7 @@ TEST_F(MtlReader, PathsOfOtherMachinesMeanTheFileBeside) {
 TEST_F(MtlReader, ABlackKdDoesNotHideItsTexture) {
   files.write("t.png", test::tiny_png());
   EXPECT_EQ(color(material("Kd 0 0 0\nmap_Kd t.png\n"), "diffuse"), vec3(1));
-  EXPECT_TRUE(warned("1 x x.mtl:1:1: Kd is black beside map_Kd"));
+  EXPECT_TRUE(warned("1 x x.mtl:1:1: Kd is black although there is a map_Kd"));
 }
 
 TEST_F(MtlReader, HowTfWasReadIsTold) {
