@@ -1,11 +1,11 @@
 #pragma once
-// What a scattering model does, for those who must know before they ask it for a direction.
+// Capabilities of a scattering model, known before a direction is sampled.
 
 #include <cstdint>
 
 namespace candela {
 
-/// Where it scatters to, and by which kinds of lobes.
+/// The sides to which a model scatters, and its kinds of lobes.
 enum class BsdfFlags : std::uint8_t {
   none = 0,
   reflection = 1,   ///< to the side of wo
@@ -31,7 +31,8 @@ constexpr bool transmits_with_density(BsdfFlags f) {
   return has_any(f, BsdfFlags::transmission) && has_any(f, BsdfFlags::diffuse | BsdfFlags::glossy);
 }
 
-/// What a path carries (Veach 1997, section 5.2): refraction scales radiance by 1 / eta^2, importance not.
+/// The quantity that a path transports (Veach 1997, section 5.2): refraction scales radiance by 1 / eta^2,
+/// but not importance.
 enum class TransportMode : std::uint8_t {
   radiance,   ///< paths from the camera
   importance, ///< paths from lights

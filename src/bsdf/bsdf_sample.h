@@ -1,5 +1,5 @@
 #pragma once
-// What every scattering model offers.
+// The interface of all scattering models.
 //
 // Directions are unit vectors in the local frame whose +z is the shading normal, and both point away from the
 // surface. Reflecting models are two-sided: below the surface (wo.z < 0) they act as above it, mirrored.
@@ -14,8 +14,8 @@
 
 namespace candela {
 
-/// The random numbers that choose a direction. Every model maps the same disc, so whoever samples many can
-/// make those points side by side.
+/// The random numbers that select a direction. All models map the same disc, so its points can be computed
+/// for many samples at once.
 struct BsdfU {
   vec2 disc;  ///< uniform on the unit disc; chooses the direction
   float lobe; ///< in [0, 1); chooses the lobe
@@ -68,7 +68,7 @@ concept BsdfModel = requires(const B& b, vec3 wo, vec3 wi, BsdfU u) {
   { b.albedo() } -> std::same_as<Spectrum>;
 };
 
-/// Both on the same side of the surface, and neither in it.
+/// Whether both are on the same side of the surface, and neither in its plane.
 inline bool same_hemisphere(vec3 wo, vec3 wi) { return wo.z * wi.z > 0; }
 /// The mirror image of wo about the normal.
 inline vec3 reflect_about_normal(vec3 wo) { return {-wo.x, -wo.y, wo.z}; }

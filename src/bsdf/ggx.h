@@ -10,7 +10,7 @@ namespace candela {
 /// Rough Surfaces") with Schlick's Fresnel term and Smith's height-correlated masking and shadowing (Heitz
 /// 2014, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", eq. 99):
 ///     f = F D G2 / (4 cos_o cos_i).
-/// Light scattered more than once between facets is lost, so a rough surface is a little dark.
+/// Multiple scattering between facets is ignored, so rough surfaces are slightly too dark.
 ///
 /// Half vectors are sampled from the visible normals by spherical caps (Dupuy & Benyoub 2023, "Sampling
 /// Visible GGX Normals with Spherical Caps"), the cap being cut to what can reflect upwards (Eto & Tokuyoshi
@@ -19,7 +19,7 @@ struct Ggx {
   Spectrum specular{0.9f}; ///< reflectance at normal incidence, F0
   float roughness = 0.3f;  ///< alpha = roughness^2, which is about linear to the eye
 
-  /// Below this a facet normal's float digits no longer resolve the lobe.
+  /// Below this, floats of facet normals cannot resolve the lobe.
   static constexpr float kMinAlpha = 1e-3f;
   float alpha() const { return std::max(sqr(roughness), kMinAlpha); }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A rough, cheap stand-in for a BSDF, by which lights are chosen.
+// A rough, cheap approximation of a BSDF for light selection.
 
 #include "core/math.h"
 

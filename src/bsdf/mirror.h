@@ -5,7 +5,7 @@
 
 namespace candela {
 
-/// Ideal mirror, with a Lambertian lobe beside it where `diffuse` is not 0; the lobe is chosen by luminance.
+/// Ideal mirror with an additional Lambertian lobe if `diffuse` is not 0; the lobe is selected by luminance.
 struct Mirror {
   Spectrum specular{0.9f};
   Spectrum diffuse{0};

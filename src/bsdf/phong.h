@@ -7,8 +7,7 @@
 namespace candela {
 
 /// The modified Phong model of Lafortune & Willems 1994, "Using the Modified Phong Reflectance Model for
-/// Physically Based Rendering": reciprocal, and it reflects no more than it gets where diffuse + specular
-/// <= 1.
+/// Physically Based Rendering": reciprocal, and energy conserving if diffuse + specular <= 1.
 ///     f = diffuse / pi + specular (n + 2) / (2 pi) max(0, cos alpha)^n,
 /// with alpha between wi and the mirror image of wo. Sampled as a mixture of its lobes (their pdf is the
 /// mixture's) that are chosen by luminance; the glossy lobe's directions below the surface fail.

@@ -1,5 +1,5 @@
 #pragma once
-// A sequence that grows without moving what it has.
+// A sequence that grows without moving its elements.
 
 #include <cstddef>
 #include <memory>
@@ -25,7 +25,7 @@ public:
       blocks_.push_back(std::make_unique_for_overwrite<T[]>(std::size_t{1} << kShift));
     (*this)[size_++] = value;
   }
-  /// Leaves the first `size` elements.
+  /// Keeps the first `size` elements.
   void truncate(std::size_t size) { size_ = size; }
 
 private:

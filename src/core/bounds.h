@@ -6,8 +6,7 @@
 
 namespace candela {
 
-/// Beyond, products of coordinates overflow, and so did the values that the file means: primitives there
-/// are left out of pictures.
+/// Beyond this, products of coordinates overflow: such primitives are left out of pictures.
 inline constexpr float kMaxCoordinate = 1e12f;
 
 struct Bounds3 {

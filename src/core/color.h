@@ -1,5 +1,5 @@
 #pragma once
-// Colours are linear with Rec. 709 primaries; sRGB is only how 8-bit files and screens encode them.
+// Colours are linear with Rec. 709 primaries; sRGB is only the encoding of 8-bit files and screens.
 
 #include "core/math.h"
 

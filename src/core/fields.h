@@ -1,6 +1,6 @@
 #pragma once
-// Field tables: one row describes one editable value of a struct, once, for everybody who reads, writes,
-// checks, documents or draws it.
+// Field tables: one row describes one editable value of a struct, for all code that reads, writes, checks,
+// documents or draws it.
 
 #include "core/math.h"
 
@@ -20,7 +20,7 @@ enum class FieldType {
   color,   ///< vec3, linear Rec. 709
 };
 
-/// What an edit of the field makes out of date.
+/// What an edit of the field invalidates.
 enum class Invalidates {
   nothing, ///< only when to stop, or how to run
   display, ///< the tone-mapped picture; never restarts the accumulation

@@ -1,5 +1,5 @@
 #pragma once
-// Integer hashes for counter-based random numbers: the value depends on its arguments alone.
+// Integer hashes for counter-based random numbers: the value depends only on its arguments.
 
 #include <cstdint>
 

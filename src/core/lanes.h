@@ -1,9 +1,9 @@
 #pragma once
-// Arrays side by side, for loops over many points of which compilers make vector code.
+// Structures of arrays, for loops over many points that compilers vectorise.
 //
 // A loop is vectorised if its arrays are plain floats or integers of 32 bits and of one object or __restrict,
-// if it calls nothing that is not inlined, and if it has no branches: so items are chosen and written to
-// arrays first, treated the same in the loop, and looked at afterwards.
+// if it calls nothing that is not inlined, and if it has no branches: so items are selected and written to
+// arrays first, processed uniformly in the loop, and evaluated afterwards.
 
 #include "core/math.h"
 

@@ -29,7 +29,7 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 
 constexpr float sqr(float x) { return x * x; }
-/// sqrt that takes the rounding error of an exact 0 for 0.
+/// sqrt that clamps rounding errors below 0.
 inline float safe_sqrt(float x) { return std::sqrt(std::max(x, 0.0f)); }
 inline float max_component(vec3 v) { return std::max(std::max(v.x, v.y), v.z); }
 inline float min_component(vec3 v) { return std::min(std::min(v.x, v.y), v.z); }

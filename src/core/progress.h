@@ -1,5 +1,5 @@
 #pragma once
-// Progress and cancellation of long work, shared by the thread that works and the thread that waits.
+// Progress and cancellation of long work, shared by the working and the waiting thread.
 
 #include <algorithm>
 #include <atomic>
@@ -9,7 +9,7 @@
 
 namespace candela {
 
-/// Thrown out of work that was told to end early.
+/// Thrown by work that was cancelled.
 struct Cancelled : std::exception {
   const char* what() const noexcept override { return "the work was given up"; }
 };
@@ -27,7 +27,7 @@ public:
     return cancelled_.load(std::memory_order_relaxed) ||
            (ends_ != nullptr && ends_->load(std::memory_order_relaxed));
   }
-  /// Throws Cancelled if it is to end. Not for the inside of an OpenMP region, which no exception may leave.
+  /// Throws Cancelled if it is cancelled. Not for OpenMP regions, which exceptions must not leave.
   void check() const {
     if (cancelled()) throw Cancelled();
   }
@@ -37,8 +37,8 @@ public:
   /// Adds to the work done.
   void advance(std::uint64_t work) { done_.fetch_add(work, std::memory_order_relaxed); }
 
-  /// What is done of what is known to be done in all, in [0, 1]; 0 while nothing is known. Never less than it
-  /// was, also when more turns out to be expected.
+  /// The share of the expected work that is done, in [0, 1]; 0 if nothing is known. It never decreases, even
+  /// if more work becomes known.
   double share() const {
     const auto all = expected_.load(std::memory_order_relaxed), done = done_.load(std::memory_order_relaxed);
     const double now = all > 0 ? static_cast<double>(std::min(done, all)) / static_cast<double>(all) : 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Large values that are made often and shared for a while: the memory of one that is no longer used
-// serves the next, since fresh pages cost more than what is written to them.
+// A pool of large values that are created often and shared for some time: memory is reused, since new pages
+// cost more than writing to them.
 
 #include <memory>
 #include <mutex>
@@ -11,7 +11,7 @@ namespace candela {
 template <class T>
 class Recycler {
 public:
-  /// A new T, or one that was given back, as it was left. May outlive the Recycler.
+  /// A new T, or a returned one in its last state. May outlive the Recycler.
   std::shared_ptr<T> take() {
     std::unique_ptr<T> value;
     {

@@ -4,7 +4,7 @@
 
 namespace candela {
 
-/// What varies with the wavelength: radiance, throughput, reflectance, transmittance, absorption
+/// Quantities that depend on the wavelength: radiance, throughput, reflectance, transmittance, absorption
 /// coefficients. Three values, for the linear Rec. 709 primaries (core/color.h). Points, directions and
 /// normals are vec3.
 using Spectrum = vec3;

@@ -1,5 +1,5 @@
 #pragma once
-// When work is to end early: what long loops of rendering poll.
+// Conditions for ending work early, polled by long loops of rendering.
 
 #include <array>
 #include <atomic>
@@ -55,8 +55,8 @@ private:
   std::optional<Clock::time_point> deadline_;
 };
 
-/// One worker's view of a condition. It latches: work that was asked to stop in its middle is of no use, even
-/// where the flag is cleared.
+/// One worker's view of a condition. It latches: partially stopped work is useless, even if the flag is
+/// cleared.
 class StopPoll {
 public:
   explicit StopPoll(const StopCondition& condition) : condition_(condition) {}

@@ -1,7 +1,6 @@
 #pragma once
-// Colours for numbers: perceptually uniform maps in which lightness rises all the way, readable in grey and
-// by the colour-blind (Smith and van der Walt's magma and viridis of 2015, CC0, here from nine of their
-// colours each).
+// Colour maps: perceptually uniform with monotonic lightness, readable in grey and by the colour-blind (Smith
+// and van der Walt's magma and viridis of 2015, CC0, here from nine of their colours each).
 
 #include <array>
 #include <cstdint>

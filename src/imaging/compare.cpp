@@ -12,7 +12,7 @@ namespace candela {
 
 namespace {
 
-/// What squares of differences are divided by in relMSE.
+/// The denominator of relMSE.
 double unit_of(float r) { return static_cast<double>(r) * static_cast<double>(r) + 0.01; }
 
 double squared_relative_error(float x, float r) {

@@ -1,5 +1,5 @@
 #pragma once
-// How far a picture is from a reference.
+// Error measures of a picture against a reference.
 
 #include "imaging/image.h"
 
@@ -11,8 +11,8 @@
 
 namespace candela {
 
-/// Means over all pixels and channels, summed in double. Pixels of which a channel is NaN or infinite in
-/// either picture count for nothing but `nonfinite` (FLIP and PSNR show them: black or white).
+/// Means over all pixels and channels, summed in double. Pixels with a NaN or infinite channel in either
+/// picture count only in `nonfinite` (for FLIP and PSNR they are black or white).
 struct ComparisonResult {
   int width = 0;
   int height = 0;
@@ -31,7 +31,7 @@ ComparisonResult compare_images(const Image& image, const Image& reference);
 /// ComparisonResult::rel_mse alone, without the cost of the rest. The sizes must be equal.
 double relative_mse(std::span<const vec3> image, std::span<const vec3> reference);
 
-/// A pixel's share of the relMSE that the variance of its mean lets expect, the mean standing in for the
+/// A pixel's share of the relMSE estimated from the variance of its mean, with the mean in place of the
 /// reference: mean over channels of variance / (mean^2 + 0.01).
 double relative_variance(vec3 mean, vec3 variance_of_mean);
 
@@ -43,8 +43,8 @@ std::string comparison_json(const ComparisonResult& result);
 double relative_error(vec3 x, vec3 r);
 
 /// relative_error of every pixel as a picture, 8-bit sRGB, three bytes a pixel: black at 0.1 % or less, by
-/// decades through magma to light yellow at 100 % or more; pixels that are not finite are cyan, which the map
-/// does not hold.
+/// decades through magma to light yellow at 100 % or more; pixels that are not finite are cyan, which is not
+/// in the map.
 std::vector<std::uint8_t> relative_error_picture(const Image& image, const Image& reference);
 
 } // namespace candela

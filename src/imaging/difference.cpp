@@ -17,7 +17,7 @@ double relative_difference(vec3 x, vec3 r) {
 
 std::array<std::uint8_t, 3> map_signed_color(float t) {
   using Color = std::array<float, 3>;
-  // Equally light at both ends, lighter the farther from 0.
+  // Both ends are equally light; lightness increases with the distance from 0.
   constexpr Color kStops[2][3] = {{{22, 22, 22}, {20, 96, 190}, {150, 215, 255}},
                                   {{22, 22, 22}, {188, 84, 10}, {255, 214, 140}}};
   const Color* stops = kStops[t > 0 ? 1 : 0];

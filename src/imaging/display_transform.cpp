@@ -11,13 +11,13 @@ namespace candela {
 
 namespace {
 
-/// Enough for a percentile of a percent, few enough to be sorted for every picture.
+/// Enough for a percentile of one percent, few enough to sort for every picture.
 constexpr std::size_t kMaxSorted = std::size_t{1} << 16;
 constexpr float kMaxDecades = 6;
 
 bool is_logarithmic(View view) { return view == View::radiance || view == View::variance; }
 
-/// The numbers behind the colours: the channels of a scalar view are equal.
+/// The scalar of a pixel; the channels of a scalar view are equal.
 float value_of(vec3 linear) {
   return linear.x == linear.y && linear.y == linear.z ? linear.x : luminance(linear);
 }
@@ -26,8 +26,8 @@ struct Range {
   float lo, hi;
 };
 
-/// Of the values that are finite and, if asked for, positive: the percentiles over a regular subset, and the
-/// largest of all.
+/// Of the finite and, if requested, positive values: percentiles over a regular subset, and the maximum of
+/// all.
 struct Percentiles {
   float low = 0, high = 0, largest = 0;
 };
@@ -72,7 +72,7 @@ FalseColorScale scale_of(std::span<const vec3> linear, const DisplaySettings& di
   Range range{display.false_color_min, display.false_color_max};
   if (range.hi <= range.lo) range = automatic_range(linear, view, scale.logarithmic);
   if (!(range.hi > range.lo)) range.hi = range.lo > 0 ? 2 * range.lo : range.lo + 1; // all pixels are equal
-  if (range.lo <= 0) scale.logarithmic = false;                                      // asked for by hand
+  if (range.lo <= 0) scale.logarithmic = false;                                      // requested by the user
   scale.lo = range.lo;
   scale.hi = range.hi;
   return scale;
@@ -83,7 +83,7 @@ bool shows_false_color(const DisplaySettings& display, View view) {
   return display.false_color != FalseColor::off;
 }
 
-/// The colours of a scale in steps too small to be seen.
+/// The colours of a scale in steps too small to be visible.
 class ColorTable {
 public:
   explicit ColorTable(const FalseColorScale& scale) : scale_(scale) {
@@ -127,7 +127,7 @@ DisplayTransform display_transform(std::span<const vec3> linear, int width, int 
     transform.automatic_exposure = automatic_exposure(linear, width, height);
     transform.tone.exposure += transform.automatic_exposure;
   } else if (view != View::radiance) {
-    // A property is shown as it is: what suits the scene's light does not suit an albedo.
+    // Properties are not exposed: an exposure for the scene's radiance does not suit an albedo.
     transform.tone.tone_map = ToneMap::srgb;
     transform.tone.exposure = std::log2(display_scale);
   }

@@ -108,10 +108,10 @@ vec3 lab_from_rgb(vec3 rgb) {
   return {116 * t.y - 16, 500 * (t.x - t.y), 200 * (t.y - t.z)};
 }
 
-/// Colours are less distinct the darker they are (the Hunt effect).
+/// Reduces the chroma of dark colours (the Hunt effect).
 vec3 hunt_adjusted(vec3 lab) { return {lab.x, 0.01f * lab.x * lab.y, 0.01f * lab.x * lab.z}; }
 
-/// The HyAB metric: city block in lightness, Euclid in colour.
+/// The HyAB metric: city-block distance in lightness, Euclidean in chroma.
 float hyab(vec3 a, vec3 b) {
   vec3 d = a - b;
   return std::abs(d.x) + std::sqrt(d.y * d.y + d.z * d.z);
@@ -119,7 +119,7 @@ float hyab(vec3 a, vec3 b) {
 
 float color_error(vec3 a, vec3 b) { return std::pow(hyab(a, b), kColorExponent); }
 
-/// The largest error, between green and blue, to 1; small errors get most of the range.
+/// Maps the largest error, between green and blue, to 1; small errors get most of the range.
 float redistribute(float error, float largest) {
   float split = kColorSplit * largest;
   if (error < split) return error * (kErrorSplit / split);
@@ -162,7 +162,7 @@ Plane filter_sensitivity(const Plane& in, Size size, std::span<const Term> terms
 }
 
 struct Appearance {
-  std::vector<vec3> color; ///< Hunt-adjusted Lab of the picture as the eye resolves it
+  std::vector<vec3> color; ///< Hunt-adjusted Lab of the picture, filtered by the contrast sensitivity
   Plane edge, point;       ///< strength of the features
 };
 
@@ -191,7 +191,7 @@ Appearance appearance(const Image& image, float ppd) {
     out.color[i] =
         hunt_adjusted(lab_from_rgb(glm::clamp(rgb_from_opponent({y[i], cx[i], cz[i]}), vec3(0), vec3(1))));
 
-  // Features are looked for in the unfiltered lightness, from 0 to 1.
+  // Features are detected in the unfiltered lightness, from 0 to 1.
   Plane grey = std::move(opponent[0]);
   for (float& v : grey) v = (v + 16) / 116;
   float sigma = 0.5f * kFeatureWidth * ppd;

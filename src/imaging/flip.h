@@ -1,5 +1,5 @@
 #pragma once
-// How different two pictures look when one alternates between them on a screen.
+// The FLIP difference of two pictures that alternate on a screen.
 
 #include "imaging/image.h"
 

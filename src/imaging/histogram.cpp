@@ -9,8 +9,8 @@ namespace candela {
 
 namespace {
 
-/// Bins of all positive floats by their exponent and 8 bits of mantissa: a look-up is many times quicker than
-/// a logarithm.
+/// Bins of positive floats by their exponent and 8 bits of mantissa: a look-up is much faster than a
+/// logarithm.
 using BinTable = std::array<std::uint16_t, 1 << 16>;
 
 BinTable make_bins() {
@@ -53,7 +53,7 @@ LogHistogram log_histogram(std::span<const vec3> linear, std::span<const std::ui
     smallest = std::min(smallest, l);
     h.largest = std::max(h.largest, l);
   }
-  // The mean of the logarithms by the bins' middles.
+  // The mean logarithm, with the bins' centres.
   double sum = 0, count = 0;
   for (std::size_t b = 0; b < LogHistogram::kBins; ++b) {
     const double n = h.counts[LogHistogram::gray][b];

@@ -10,7 +10,7 @@ namespace candela {
 
 namespace {
 
-/// The value that an alpha has where nothing is transparent.
+/// The alpha value of opaque texels.
 template <class T>
 constexpr T opaque() {
   if constexpr (std::is_integral_v<T>)
@@ -54,7 +54,7 @@ Texels with_fewest_channels(Texels texels) {
           if (n == 4) is_opaque &= values[i + 3] == opaque<T>();
           is_grey &= values[i] == values[i + 1] && values[i] == values[i + 2];
         }
-        if (!is_opaque) return; // a grey with an alpha keeps its colours beside it
+        if (!is_opaque) return; // there is no format of grey with alpha
         const std::size_t kept = is_grey ? 1 : std::min<std::size_t>(n, 3);
         if (kept == n) return;
         values = first_channels(values, n, kept);

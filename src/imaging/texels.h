@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as textures keep them: in the precision of their files.
+// Pictures for textures, in the precision of their files.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@ struct Texels {
   int width = 0;
   int height = 0;
   int channels = 3;
-  /// Integers stand for [0, 1]; how they are decoded is up to who looks them up. Floats are linear.
+  /// Integers represent [0, 1]; the texture lookup decodes them. Floats are linear.
   using Data = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<float>>;
   Data data;
   bool operator==(const Texels&) const = default;
@@ -24,15 +24,14 @@ struct Texels {
   std::size_t bytes() const;
 };
 
-/// Without an alpha that is 1 everywhere, and with one channel where all texels are grey: what is looked up
-/// stays the same.
+/// Removes an alpha that is 1 everywhere, and reduces grey texels to one channel; lookups do not change.
 Texels with_fewest_channels(Texels texels);
 
-/// What is wrong with their size ("its pixels do not fit its size"); empty where all is well.
+/// A problem of the texels ("its pixels do not fit its size"); empty if they are valid.
 const char* texels_problem(const Texels& texels);
 
-/// As shown on a screen: three sRGB bytes a texel. Integers are taken for sRGB; floats are encoded and
-/// clipped to [0, 1]. Alpha is dropped.
+/// Texels for display: three sRGB bytes each. Integers are assumed to be sRGB; floats are encoded and clipped
+/// to [0, 1]. Alpha is dropped.
 std::vector<std::uint8_t> srgb8_texels(const Texels& texels);
 
 } // namespace candela

@@ -48,7 +48,7 @@ std::array<std::uint32_t, kBuckets> make_srgb_table() {
 
 const std::array<std::uint32_t, kBuckets> kSrgbTable = make_srgb_table();
 
-/// Into a table's range; NaN to its start.
+/// Clamps to a table's range; NaN to its start.
 inline float clip(float x, float smallest) {
   x = x > smallest ? x : smallest;
   return x < kOneMinusEpsilon ? x : kOneMinusEpsilon;
@@ -136,7 +136,7 @@ inline vec3 aces(vec3 c) {
           -0.00327f * w.x - 0.07276f * w.y + 1.07602f * w.z};
 }
 
-/// What the settings mean, worked out once for a picture.
+/// Values derived from the settings once per picture.
 struct Curve {
   explicit Curve(const DisplaySettings& display)
       : kind(display.tone_map), dither(display.dither), factor(std::exp2(display.exposure)),
@@ -155,10 +155,10 @@ void map_colors(float* linear, std::size_t count, Map map) {
   }
 }
 
-/// Block by block: the curve to floats, the floats to bytes; the loops are plain enough to be vectorised.
+/// Works in blocks: first the curve, then the encoding to bytes; simple loops that the compiler vectorises.
 constexpr std::size_t kBlock = 256;
 
-/// What the dither adds from a row's pixel to a later one's, for its three channels.
+/// The difference of the dither between two pixels of a row, for the three channels.
 constexpr std::array<std::uint32_t, 3 * kBlock> make_dither_steps() {
   std::array<std::uint32_t, 3 * kBlock> steps{};
   for (std::uint32_t i = 0; i < 3 * kBlock; ++i) steps[i] = i / 3 * kDitherX;
@@ -166,13 +166,13 @@ constexpr std::array<std::uint32_t, 3 * kBlock> make_dither_steps() {
 }
 constexpr std::array<std::uint32_t, 3 * kBlock> kDitherSteps = make_dither_steps();
 
-/// Codes of clipped values of one row; `first` is the dither of their first pixel. Told that bytes, which may
-/// alias anything, do not alias the table, the compiler gathers from it many at a time.
+/// Codes of clipped values of one row; `first` is the dither of their first pixel. With `restrict`, the
+/// compiler knows that the bytes do not alias the table, and vectorises the look-ups.
 void encode_dithered(const float* __restrict linear, std::size_t count, std::uint32_t first,
                      std::uint8_t* __restrict code) {
   const std::uint32_t* __restrict table = kDitheredTable.data();
   for (std::size_t i = 0; i < count; ++i) {
-    // 256 values in the middles of their shares of (0, 1): 8 from its ends, more than the table errs.
+    // 256 values at the centres of equal parts of (0, 1): 8 from the ends, more than the error of the table.
     const std::uint32_t u = ((first + kDitherSteps[i]) >> 20 & 0xff0) | 8;
     code[i] = static_cast<std::uint8_t>((fine_code(linear[i], table) + u) >> kFraction);
   }
@@ -197,7 +197,7 @@ void map_block(const vec3* in, std::size_t at, std::size_t pixels, const Picture
     map_colors(linear, count, [](vec3 color) { return aces(color); });
   else if (curve.kind == ToneMap::filmic)
     for (std::size_t i = 0; i < count; ++i) linear[i] = filmic(linear[i]);
-  // A loop of its own: g++ would make branches of it beside the look-up, and guess them wrong.
+  // A separate loop: combined with the look-up, g++ would generate mispredicted branches.
   const float smallest = curve.dither ? kSmallestDithered : kSmallest;
   for (std::size_t i = 0; i < count; ++i) linear[i] = clip(linear[i], smallest);
   if (!curve.dither) {

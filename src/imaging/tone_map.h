@@ -1,5 +1,5 @@
 #pragma once
-// From linear radiance to what a screen shows. The window and the 8-bit files use the same code.
+// Tone mapping: from linear radiance to display values. The window and the 8-bit files use the same code.
 
 #include "core/math.h"
 #include "imaging/display_settings.h"
@@ -20,16 +20,15 @@ namespace candela {
 ///             in a wider space, so that bright saturated colours go to white (Stephen Hill, "ACES.hlsl" in
 ///             BakingLab by Pettineo and Hill, 2016); middle grey becomes 0.106, as darker as ACES has it;
 ///   srgb:     nothing.
-/// Negative and NaN channels count as 0, infinite ones as very large: both stay visible as black and white
-/// spots, and are counted elsewhere.
+/// Negative and NaN channels count as 0, infinite ones as very large. They stay visible as black and white
+/// pixels, and are counted elsewhere.
 vec3 tone_mapped(vec3 linear, const DisplaySettings& display);
 
-/// The scene-linear grey, before the exposure, that becomes white (code 255) first; infinity where only a
-/// limit is white. A histogram marks it.
+/// The smallest scene-linear grey, before the exposure, that becomes white (code 255); infinity if white is
+/// only a limit. A histogram marks it.
 float white_level(const DisplaySettings& display);
 
-/// Pixels row by row, of rows of `width`; `origin` is where the first one lies in the frame that they are a
-/// part of. The dither depends on it.
+/// Rows of `width` pixels; `origin` is the first one's position in the frame, on which the dither depends.
 struct PictureRows {
   int width = 1;
   ivec2 origin{0};
@@ -41,11 +40,11 @@ std::uint8_t srgb8_from_linear(float x);
 
 /// tone_mapped, then srgb8_from_linear, for every pixel. The output has 3 (4) bytes a pixel, alpha is 255.
 ///
-/// With display.dither the code is floor(255 s + u) instead, with a u that is uniform over (0, 1) from
-/// pixel to pixel: the mean over pixels of one value is that value, where rounding would make bands of a
-/// gradient. What is exactly a code (black, white, a flat area of 8 bits) stays that code, and no code is
-/// more than one from the rounded one. u is the same for a pixel's three channels, so that greys stay grey,
-/// and a function of its place alone, so that the bits are the same every time.
+/// With display.dither the code is floor(255 s + u) instead, with a u that is uniform over (0, 1) from pixel
+/// to pixel: the mean over pixels of one value is that value, while rounding would show bands in gradients.
+/// Exact codes (black, white, flat areas of 8 bits) do not change, and every code differs from the rounded
+/// one by at most one. u is equal for a pixel's three channels, so that greys stay grey, and depends only on
+/// the pixel's position, so that the output is reproducible.
 void tone_map_rgb8(std::span<const vec3> linear, PictureRows rows, const DisplaySettings& display,
                    std::span<std::uint8_t> rgb);
 void tone_map_rgba8(std::span<const vec3> linear, PictureRows rows, const DisplaySettings& display,

@@ -1,10 +1,9 @@
 #pragma once
-// What a picture shows.
+// The quantities that a picture can show.
 
 namespace candela {
 
-/// What a pixel shows. The first five rows of names are properties of the first surface; the rest is what the
-/// render knows of itself.
+/// The quantity of a pixel: radiance, properties of the first surface, then statistics of the render.
 enum class View : int {
   radiance,
   albedo,
@@ -13,20 +12,20 @@ enum class View : int {
   depth,
   uv,
   material,
-  bvh_cost,    ///< nodes and primitives that the camera ray tests
-  depth_share, ///< of the radiance, by path length
-  light_share, ///< of the direct light, by the strategy that found it
+  bvh_cost,    ///< nodes and primitives tested for the camera ray
+  depth_share, ///< shares of the radiance by path length
+  light_share, ///< shares of the direct light by sampling strategy
   variance,
   samples,
   nonfinite
 };
-/// The view whose samples a film must hold to show this one: switching between views of the same samples
-/// restarts nothing.
+/// The view whose samples a film must hold for this one: switching between views of the same samples restarts
+/// nothing.
 constexpr View accumulated_view(View view) {
   return view == View::variance || view == View::samples || view == View::nonfinite ? View::radiance : view;
 }
 
-/// Whether a pixel of the view is one number, in three equal channels, rather than a colour.
+/// Whether the view is scalar, with three equal channels.
 bool is_scalar_view(View view);
 
 } // namespace candela

@@ -15,12 +15,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The line up to its comment, which begins with a ';' outside of quotes, as Qt's QSettings has it.
+/// The line without its comment, which begins with a ';' outside of quotes, as in Qt's QSettings.
 std::string_view without_comment(std::string_view line) {
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '\\')
-      ++i; // whatever follows means no more than itself
+      ++i; // skips the escaped character
     else if (line[i] == '"')
       quoted = !quoted;
     else if (line[i] == ';' && !quoted)
@@ -54,7 +54,8 @@ public:
     IniJob job;
     job.scene = find_scene();
     job.output = output_;
-    // As its reference pictures are shown: they are 2/3 of a stop darker than the radiance of their scenes.
+    // As in the assignment's reference pictures, which are 2/3 of a stop darker than the radiance of their
+    // scenes.
     document_.settings.display.tone_map = ToneMap::reinhard;
     document_.settings.display.exposure = -0.65f;
     job.settings = document_.settings;
@@ -74,7 +75,7 @@ private:
       throw input_error(at(text), "job", "the line is neither [section] nor key = value",
                         "write key = value");
     std::string_view key = trimmed(text.substr(0, equals)), value = trimmed(text.substr(equals + 1));
-    if (value.empty()) value = text.substr(text.size()); // trimmed() gives no place for nothing
+    if (value.empty()) value = text.substr(text.size()); // so that the location of an empty value is valid
     if (value.size() > 1 && value.front() == '"' && value.back() == '"')
       value = value.substr(1, value.size() - 2);
     auto names = keys();
@@ -137,12 +138,12 @@ private:
     }
   }
 
-  /// Sets a row of the settings table, with the range that it has there.
+  /// Sets a row of the settings table and checks its range.
   void set(std::string_view setting, std::string_view key, std::string_view value) {
     const auto* row = find_setting(setting);
     try {
       field_from_text(*row, row->address(document_), value);
-    } catch (const Error&) { // of the command line: it knows no place
+    } catch (const Error&) { // a usage error without a location
       throw input_error(at(value), key, fmt::format("'{}' does not fit", value.substr(0, 60)),
                         fmt::format("give {}", field_domain(*row)));
     }

@@ -28,8 +28,8 @@ struct IniJob {
 /// Reads a job. Its settings, in the terms of the settings table:
 ///
 /// - imageWidth, imageHeight, samplesPerPixel: film.width, film.height, stop.spp.
-/// - pathContinuationProb: path.rr = fixed with path.rr_probability, and path.rr_depth = 1, as the assignment
-///   draws at every bounce: the camera's segment and direct light are safe, every continuation is random.
+/// - pathContinuationProb: path.rr = fixed with path.rr_probability, and path.rr_depth = 1, as in the
+///   assignment: Russian roulette at every bounce, but not for the camera's segment and direct light.
 /// - directLightingOnly: path.max_depth = 2.
 /// - numDirectLightingSamples: path.light_samples.
 /// - As the assignment's reference pictures are shown: display.tone_map = reinhard, display.exposure = -0.65.
@@ -40,7 +40,7 @@ struct IniJob {
 /// to four folders above, and, as the assignment's students keep the scenes in example-scenes/, with that
 /// folder's name left out too. Unless allow_outside, the name may not be absolute or go upwards.
 ///
-/// Throws input_error with line and column for everything else that does not fit.
+/// Throws input_error with line and column for everything else.
 IniJob read_ini_job(const std::string& path, bool allow_outside, WarningList& warnings);
 
 } // namespace candela

@@ -13,7 +13,7 @@ Document read_obj_scene(const FoundFile& file, const PathPolicy& policy, Warning
   Instance instance;
   instance.name = mesh.mesh->name;
   instance.shape = mesh.mesh;
-  // The mesh is all that there is: nothing else has to keep its place beside it.
+  // The mesh is the only object, so its position in the world does not matter.
   if (const glm::dvec3 origin = mesh.mesh->origin; origin != glm::dvec3(0))
     warnings.add({file.shown},
                  fmt::format("it lies far from its origin for its size: ({}, {}, {}) is taken for the origin",
@@ -32,7 +32,7 @@ Document read_obj_scene(const FoundFile& file, const PathPolicy& policy, Warning
     sky.name = "sky";
     sky.model = ConstantLightModel{};
     document.scene.lights.push_back(std::move(sky));
-    warnings.add({file.shown}, "nothing shines: a constant light is added");
+    warnings.add({file.shown}, "nothing emits light: a constant light is added");
   }
   return document;
 }

@@ -25,8 +25,8 @@ constexpr const char* kScene = "candela.scene";
 constexpr const char* kFiles = "candela.files";
 constexpr const char* kCrop = "candela.crop";
 
-/// Of a file's content. Not a cryptographic one: it tells files that were edited from those that were not,
-/// and cannot be guessed by whoever does not know the content.
+/// A hash of a file's content. It is not cryptographic: it detects edited files, and cannot be guessed
+/// without knowing the content.
 std::string content_hash(ByteView bytes, const Progress* progress = nullptr) {
   std::uint64_t hash = bytes.size(), word = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -52,7 +52,7 @@ std::string file_list(const SceneDesc& scene, const std::string& folder) {
   return list.empty() ? "" : fmt::format("[{}\n]\n", list);
 }
 
-/// Compares the files with what they were; those that are the same may be opened wherever they lie.
+/// Compares the files with their recorded content; unchanged ones may be opened wherever they are.
 void check_files(const std::string& list, const std::string& path, PathPolicy& policy,
                  WarningList& warnings) {
   const Location where{fmt::format("{} ({})", path, kFiles)};
@@ -72,8 +72,7 @@ void check_files(const std::string& list, const std::string& path, PathPolicy& p
     if (!seen.insert(name).second) continue;
     std::error_code failed;
     const fs::path file = fs::weakly_canonical(fs::absolute(fs::path(folder_of(path)) / name), failed);
-    if (failed || bytes < 0 || !fs::is_regular_file(file, failed))
-      continue; // the scene's reader will ask for it
+    if (failed || bytes < 0 || !fs::is_regular_file(file, failed)) continue; // the scene's reader reports it
     const auto size = fs::file_size(file, failed);
     if (!failed && size == static_cast<std::uintmax_t>(bytes) &&
         content_hash(read_file_bytes(file.string(), "scene", &warnings.progress()), &warnings.progress()) ==
@@ -102,7 +101,7 @@ PictureCrop parse_crop(const std::string& text, const FilmSettings& film, const 
   return crop;
 }
 
-/// The texts of a picture.
+/// The texts stored in a picture.
 struct PictureTexts {
   std::optional<std::string> scene, files, crop;
 };

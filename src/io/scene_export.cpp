@@ -21,7 +21,8 @@ public:
   explicit PictureCopier(const std::string& path)
       : folder_(folder_of(path)), copies_(fs::path(folder_) / (fs::path(path).stem().string() + "_files")) {}
 
-  /// Where the scene will find the picture; empty where the file is gone, so that it is written inline.
+  /// The path by which the scene refers to the picture; empty if the file is missing, so that it is written
+  /// inline.
   std::string reachable(const std::string& source) {
     if (source.empty() || path_below(folder_, source)) return source;
     if (auto known = done_.find(source); known != done_.end()) return known->second;

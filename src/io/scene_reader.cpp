@@ -12,7 +12,7 @@ namespace candela {
 
 namespace {
 
-/// A scene of its own, or the one of a job.
+/// Reads a scene, or that of a job.
 void read_document(const FoundFile& file, const ReadOptions& options, const Location& where,
                    WarningList& warnings, LoadedScene& loaded) {
   const PathPolicy policy(folder_of(file.shown), options.allow_outside);
@@ -41,12 +41,12 @@ LoadedScene read_here(const std::string& path, const ReadOptions& options) {
   } else if (std::string ending = lower_ending(path); ending == ".png" || ending == ".exr") {
     loaded = read_picture_state(path, options, warnings);
   } else {
-    // The scene itself may lie anywhere: the user has named it. Opening it says what is wrong with it.
+    // The scene itself may be anywhere, since the user has named it. Opening it reports errors.
     read_document({path, canonical_path(path)}, options, {path}, warnings, loaded);
   }
   loaded.files[canonical_path(path)] = stamp;
   const SceneDesc& scene = loaded.document.scene;
-  if (!has_light(scene)) warnings.add({path}, "nothing in the scene shines: the picture will be black");
+  if (!has_light(scene)) warnings.add({path}, "nothing in the scene emits light: the picture will be black");
   loaded.warnings = warnings.warnings();
   return loaded;
 }
@@ -55,7 +55,7 @@ LoadedScene read_here(const std::string& path, const ReadOptions& options) {
 
 LoadedScene read_scene(const std::string& path, const ReadOptions& options) {
   options.progress->check();
-  // Readers look at the progress often, but a disk may be slow, and to give gigabytes back takes time, too.
+  // Readers check for cancellation often, but disks may be slow, and freeing gigabytes takes time, too.
   return run_while([path, options] { return read_here(path, options); }, [&] { options.progress->check(); });
 }
 

@@ -13,8 +13,8 @@
 namespace candela {
 
 struct ReadOptions {
-  bool allow_outside = false; ///< may a scene name files outside of its own folder's tree?
-  /// Told how far reading is; ends it with Cancelled.
+  bool allow_outside = false; ///< whether a scene may name files outside of its folder's tree
+  /// Receives the progress of reading, and can cancel it.
   std::shared_ptr<Progress> progress = std::make_shared<Progress>();
 };
 
@@ -27,11 +27,11 @@ struct PictureCrop {
 struct LoadedScene {
   Document document;
   std::vector<Warning> warnings;
-  std::vector<std::string> output_files; ///< what an .ini job names
-  std::optional<PictureCrop> crop;       ///< the part of the film that a picture shows
-  /// Every file that decides what the scene is: its own, those that it names and those that they name
-  /// (material libraries, textures, faces), the missing ones, too; as they were before they were read.
-  /// Whoever watches, packs or lists a scene's files takes this list.
+  std::vector<std::string> output_files; ///< the outputs of an .ini job
+  std::optional<PictureCrop> crop;       ///< the part of the film of a picture's state
+  /// Every file that the scene depends on, including missing ones: its own, those that it names and those
+  /// that they name (material libraries, textures, cube faces), with their stamps before they were read. To
+  /// watch, pack or list a scene's files, use this list.
   FileStamps files;
 };
 
@@ -43,8 +43,8 @@ struct LoadedScene {
 /// - .png, .exr: a picture that Candela saved, with the scene in it (io/picture_state.h)
 /// - .ini: a job of the path tracing assignment (io/ini_job.h), which names one of the others
 ///
-/// Throws Error with the exit code 3 (what the file says does not fit) or 4 (a limit), and a message
-/// `file:line:col: element: cause: remedy`.
+/// Throws Error with exit code 3 (invalid file) or 4 (limit exceeded) and a message `file:line:col: element:
+/// cause: remedy`.
 LoadedScene read_scene(const std::string& path, const ReadOptions& options = {});
 
 } // namespace candela

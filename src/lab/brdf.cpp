@@ -41,7 +41,7 @@ BrdfLesson::BrdfLesson(Bsdf bsdf, const BrdfOptions& options, SampleSource sourc
            std::sin(std::numbers::pi * static_cast<double>(q.y));
   };
   histogram_.expected = expected_shares(kGrid, density, direction_chart(reflect_about_normal(wo)));
-  // Beside what the model loses, a direction may round into the surface itself and fail.
+  // Apart from absorption, a sample fails if rounding puts its direction into the surface plane.
   constexpr double kRounding = 1e-7;
   histogram_.outside_expected = std::max(1 - histogram_.integral(), kRounding);
 }

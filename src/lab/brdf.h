@@ -1,6 +1,6 @@
 #pragma once
-// The lesson `brdf`: the lobe of a scattering model, its albedo by Monte Carlo, and whether it samples the
-// density that it claims.
+// The lesson `brdf`: the lobe of a scattering model, its albedo by Monte Carlo, and a test of its samples
+// against its pdf.
 
 #include "core/fields.h"
 #include "lab/histogram.h"
@@ -18,19 +18,19 @@ struct BrdfOptions {
 };
 std::span<const Field<BrdfOptions>> brdf_fields();
 
-/// The histogram's chart of directions: azimuth from +x and angle from +z, both over all of the sphere.
+/// The histogram's chart of the sphere of directions: azimuth from +x, and angle from +z.
 vec2 direction_chart(vec3 w);
 vec3 direction_from_chart(vec2 q);
 
-/// What delta lobes scatter into one direction.
+/// Scattering of a delta lobe into its direction.
 struct DeltaLobe {
   vec3 wi;
   std::uint64_t count = 0;
   vec3 weight_sum{0};
 };
 
-/// Samples the model's directions as a path's second vertex does: dimensions bsdf_direction and bsdf_lobe. A
-/// value.
+/// Samples the model's directions like the second vertex of a path, with the dimensions bsdf_direction and
+/// bsdf_lobe. A value.
 class BrdfLesson {
 public:
   static constexpr ChartGrid kGrid{48, 48}; ///< 24 rows above the surface, 24 below
@@ -45,8 +45,8 @@ public:
   bool finished() const { return done_ >= samples_; }
   void advance(std::uint64_t count);
 
-  /// Directional-hemispherical reflectance (with what is transmitted, where something is): the mean of the
-  /// samples' weights f |cos| / pdf, and its standard error as if they were independent.
+  /// Directional-hemispherical reflectance plus transmittance: the mean of the samples' weights f |cos| /
+  /// pdf, and its standard error as if they were independent.
   vec3 albedo() const;
   vec3 albedo_error() const;
 

@@ -1,5 +1,5 @@
 #pragma once
-// An expectation that is known, estimated by the mean of a random variable, and how the error falls.
+// Monte Carlo estimates of known expectations, and how their errors fall.
 
 #include "core/statistics.h"
 #include "lab/source.h"
@@ -12,12 +12,12 @@ namespace candela {
 
 /// One draw of an experiment.
 struct Draw {
-  double value;  ///< its expectation is what is sought
-  vec2 position; ///< where it fell, in the experiment's own picture
-  bool hit;      ///< whether it counts as one
+  double value;  ///< its expectation is estimated
+  vec2 position; ///< where it is drawn in the experiment's picture
+  bool hit;      ///< whether it counts as a hit
 };
 
-/// - draw: of the sampler's present sample, by Dimension::film.
+/// - draw: from the sampler's current sample, with Dimension::film.
 /// - expected: the expectation, in closed form.
 /// - standard_deviation: of one draw, in closed form.
 template <class E>
@@ -27,20 +27,20 @@ concept Experiment = requires(const E& e, const Sampler& sampler) {
   { e.standard_deviation() } -> std::same_as<double>;
 };
 
-/// How far an estimate had got after `count` samples of each stream.
+/// The estimate after `count` samples of each stream.
 struct TracePoint {
   std::uint64_t count;
   double estimate;       ///< mean of the streams' estimates
   double rms_error;      ///< root of the mean of the streams' squared errors; with one stream its |error|
-  double expected_error; ///< standard_deviation / sqrt(count): what independent samples make it on average
+  double expected_error; ///< standard_deviation / sqrt(count), that of independent samples
 };
 
-/// The counts at which a trace has a point: 1, 2, 3, … and then some four to each power of two, with all of
-/// those.
+/// The counts at which a trace has points: 1, 2, 3, …, then about four per power of two, including the
+/// powers.
 std::uint64_t next_trace_count(std::uint64_t count);
 
 /// Runs an experiment on `streams` independent streams of `samples` samples each. A value: it can be copied,
-/// and advances the same way whatever the steps.
+/// and the result does not depend on the sizes of the steps.
 template <Experiment E>
 class Estimation {
 public:
@@ -50,12 +50,12 @@ public:
 
   const E& experiment() const { return experiment_; }
   const SampleSource& source() const { return source_; }
-  std::uint64_t samples() const { return samples_; } ///< of each stream, in the end
+  std::uint64_t samples() const { return samples_; } ///< of each stream, at the end
   std::uint64_t done() const { return done_; }       ///< of each stream, so far
   bool finished() const { return done_ >= samples_; }
   int streams() const { return static_cast<int>(statistics_.size()); }
 
-  /// `count` more samples of each stream, if as many are left.
+  /// Draws `count` more samples of each stream, or those that are left.
   void advance(std::uint64_t count) {
     std::uint64_t end = done_ + std::min(count, samples_ - done_);
     while (done_ < end) {
@@ -67,7 +67,7 @@ public:
     }
   }
 
-  /// The draw of one sample, made again.
+  /// Repeats the draw of one sample.
   Draw replay(std::uint64_t sample, int stream = 0) const {
     Sampler sampler = source_.sampler();
     sampler.start(SampleSource::pixel(stream), static_cast<std::uint32_t>(sample));
@@ -75,9 +75,9 @@ public:
   }
 
   double estimate() const { return across_streams().mean(); }
-  /// Of estimate(). From one stream: what independent samples of this variance would have, an upper bound in
-  /// practice for the samplers that spread them better. From several: from how their estimates scatter, which
-  /// holds for every sampler.
+  /// The standard error of estimate(). With one stream, that of independent samples with this variance, in
+  /// practice an upper bound for stratified ones. With several streams, from the spread of their estimates,
+  /// which is valid for every sampler.
   double standard_error() const {
     if (streams() == 1) return std::sqrt(statistics_[0].variance_of_mean());
     return std::sqrt(across_streams().variance_of_mean());

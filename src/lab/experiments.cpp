@@ -9,18 +9,18 @@ constexpr std::string_view kIntegrands[] = {"square", "root", "kink", "step", "p
 
 const Field<SolidAngleOptions> kSolidAngleFields[] = {
     {{"sampling", FieldType::choice, 0, 0, "",
-      "What is drawn: directions over the sphere, the hemisphere or by the cosine, or points on the disc",
+      "Samples: directions over the sphere, the hemisphere or by the cosine, or points on the disc",
       Invalidates::image, kSolidAngleSampling},
      [](SolidAngleOptions& o) -> void* { return &o.sampling; }},
 };
 
 const Field<IntegralOptions> kIntegralFields[] = {
     {{"integrand", FieldType::choice, 0, 0, "",
-      "What is integrated over [0, 1]: x^2, sqrt(x), |x - 0.3|, x < 0.3, or a narrow Gaussian",
-      Invalidates::image, kIntegrands},
+      "The integrand over [0, 1]: x^2, sqrt(x), |x - 0.3|, x < 0.3, or a narrow Gaussian", Invalidates::image,
+      kIntegrands},
      [](IntegralOptions& o) -> void* { return &o.integrand; }},
     {{"cells", FieldType::integer, 0, 4096, "cells",
-      "Importance sampling: x is drawn from the function's means over so many cells; 0 is uniform"},
+      "Importance sampling: x is sampled from the function's means over so many cells; 0: uniform"},
      [](IntegralOptions& o) -> void* { return &o.cells; }},
 };
 

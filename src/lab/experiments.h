@@ -1,6 +1,6 @@
 #pragma once
-// The experiments of the lessons pi, solid-angle and integral. All have closed forms, so that every error
-// that is shown is the true one.
+// The experiments of the lessons pi, solid-angle and integral. All have closed forms, so that the displayed
+// errors are exact.
 
 #include "core/fields.h"
 #include "lab/estimation.h"
@@ -29,7 +29,7 @@ struct PiExperiment {
   double standard_deviation() const { return std::sqrt(std::numbers::pi * (4 - std::numbers::pi)); }
 };
 
-/// How the lesson on the solid angle draws its samples.
+/// Sampling strategies of the lesson on the solid angle.
 enum class SolidAngleSampling : int {
   sphere,     ///< directions, uniform over the sphere
   hemisphere, ///< directions, uniform over the upper hemisphere
@@ -61,7 +61,7 @@ private:
   SolidAngleOptions options_;
 };
 
-/// What the lesson `integral` integrates over [0, 1]. None is negative.
+/// Integrands of the lesson `integral` over [0, 1]. None is negative.
 enum class Integrand : int {
   square, ///< x^2
   root,   ///< sqrt(x), whose slope at 0 is infinite
@@ -72,7 +72,7 @@ enum class Integrand : int {
 
 struct IntegralOptions {
   Integrand integrand = Integrand::square;
-  int cells = 0; ///< of the density by which x is drawn: the integrand's means over so many cells; 0: uniform
+  int cells = 0; ///< of x's density, the integrand's means over so many cells; 0: uniform
   bool operator==(const IntegralOptions&) const = default;
 };
 std::span<const Field<IntegralOptions>> integral_fields();
@@ -94,7 +94,7 @@ public:
 
 private:
   IntegralOptions options_;
-  PiecewiseConstant1D density_; ///< where there are cells
+  PiecewiseConstant1D density_; ///< if there are cells
   double expected_, standard_deviation_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Counts over a grid of cells against what a density makes of them.
+// Counts of samples over a grid of cells, and those expected of a density.
 
 #include "core/math.h"
 #include "core/statistics.h"
@@ -13,7 +13,7 @@ namespace candela {
 struct ChartGrid {
   int columns = 1, rows = 1;
   std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
-  /// q in [0, 1]^2; what lies outside by rounding belongs to the cell at the edge.
+  /// The cell of q in [0, 1]^2; points outside by rounding belong to the cell at the edge.
   std::size_t cell(vec2 q) const {
     auto index = [](float x, int n) {
       return static_cast<std::size_t>(std::clamp(static_cast<int>(x * static_cast<float>(n)), 0, n - 1));
@@ -39,7 +39,7 @@ double gauss_legendre(const F& f, double x0, double x1, double y0, double y1) {
 }
 
 /// The same by subdivision until a rectangle and its quarters agree within `tolerance`. The neighbourhood of
-/// `focus`, where a narrow peak may hide between the nodes, is divided all the way.
+/// `focus` is always subdivided fully, since a narrow peak may lie between the nodes.
 template <class F>
 double integrate_adaptively(const F& f, double x0, double x1, double y0, double y1, vec2 focus,
                             double tolerance, int depth = 0) {
@@ -61,10 +61,10 @@ double integrate_adaptively(const F& f, double x0, double x1, double y0, double 
          quarter(xm, x1, ym, y1);
 }
 
-/// Share of the draws that each cell expects: the integral of `density`, per unit of the chart's square.
+/// Expected share of the draws in each cell: the integral of `density`, per unit area of the chart's square.
 template <class F>
 std::vector<double> expected_shares(ChartGrid grid, const F& density, vec2 focus = vec2(-1)) {
-  constexpr double kTolerance = 1e-8; // of a cell: far below what a billion draws could tell
+  constexpr double kTolerance = 1e-8; // per cell: far below the resolution of a billion draws
   std::vector<double> shares;
   shares.reserve(grid.size());
   for (int row = 0; row < grid.rows; ++row)
@@ -75,18 +75,18 @@ std::vector<double> expected_shares(ChartGrid grid, const F& density, vec2 focus
   return shares;
 }
 
-/// Counts of draws by cell, and of those that fell into none.
+/// Counts of draws by cell, and of those outside the grid.
 struct Histogram {
   ChartGrid grid;
   std::vector<double> counts;   ///< by cell
   std::vector<double> expected; ///< share of the draws, by cell
   double outside = 0;           ///< draws that fell outside of the grid
-  double outside_expected = 0;  ///< share of the draws that should
+  double outside_expected = 0;  ///< expected share of the draws outside
   double total = 0;             ///< draws
 
-  double integral() const; ///< of `expected`: 1 where the density is one
-  /// Pearson's test of the counts against total * expected. Meant for independent draws: well-distributed
-  /// ones are more even than chance, and their p-value is near 1.
+  double integral() const; ///< of `expected`: 1 for a normalised density
+  /// Pearson's test of the counts against total * expected. Meant for independent draws: stratified ones are
+  /// more even, with a p-value near 1.
   ChiSquareResult chi_square() const;
 };
 

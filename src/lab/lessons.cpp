@@ -14,17 +14,17 @@ constexpr LessonInfo kLessons[] = {
      "One answer by four densities: the more samples hit and the closer the pdf follows the integrand, the "
      "smaller the standard deviation."},
     {"integral", "Integral of a function",
-     "Where x is drawn as the function is high, f / pdf hardly varies; raise the cells and see the standard "
-     "deviation go. Smooth functions gain most from well-distributed points."},
+     "With x sampled in proportion to the function, f / pdf hardly varies: increase the cells to reduce the "
+     "standard deviation. Smooth functions gain most from well-distributed points."},
     {"points", "Points of the samplers",
      "Count the points in each box of the grid: one in every elementary interval is what makes a (0,2)-net. "
-     "Two dimensions that are not drawn together show how they are padded."},
+     "Two dimensions that are not sampled together show how they are padded."},
     {"warps", "Maps of the square",
-     "The histogram must look like the density beside it: a p-value below a millionth, with independent "
-     "samples, means that the pdf is not what is sampled."},
+     "The histogram must look like the density next to it: a p-value below a millionth, with independent "
+     "samples, means that the samples do not follow the pdf."},
     {"brdf", "Lobes of a material",
      "Turn the view towards grazing: the lobe stretches, and the albedo must not exceed 1. Directions by "
-     "the material follow the lobe, others waste samples on what reflects little."},
+     "the material follow the lobe, others waste samples on directions that reflect little."},
 };
 
 } // namespace

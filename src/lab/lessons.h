@@ -8,12 +8,12 @@ namespace candela {
 struct LessonInfo {
   std::string_view name; ///< on the command line
   std::string_view title;
-  std::string_view look_at; ///< one line: what to see in it
+  std::string_view look_at; ///< one line: what to observe
 };
 
 /// Every lesson: pi, solid-angle, integral, points, warps, brdf.
 std::span<const LessonInfo> lessons();
-/// The one of this name, which must be one.
+/// The lesson of this name, which must exist.
 const LessonInfo& lesson(std::string_view name);
 
 } // namespace candela

@@ -1,5 +1,5 @@
 #pragma once
-// The lesson `points`: a sampler's points, seen along any two of its dimensions.
+// The lesson `points`: a sampler's points, projected to any two of its dimensions.
 
 #include "lab/source.h"
 
@@ -14,7 +14,7 @@ namespace candela {
 /// Names of the sampler's dimensions, in Dimension's order.
 std::span<const std::string_view> dimension_names();
 
-/// One coordinate of a path's random numbers: a draw in one dimension, or one of the two of a draw in two.
+/// One coordinate of a path's random numbers: a 1D draw, or one component of a 2D draw.
 struct Coordinate {
   enum Part { one, x, y };
   Dimension dimension = Dimension::film;
@@ -23,8 +23,8 @@ struct Coordinate {
   bool operator==(const Coordinate&) const = default;
 };
 
-/// "film.x", "bsdf_direction.y@2" (at bounce 2), "russian_roulette" (a draw in one dimension). Throws a
-/// usage error that names `option` if it is none.
+/// Parses "film.x", "bsdf_direction.y@2" (at bounce 2), "russian_roulette" (a 1D draw). Throws a usage error
+/// that names `option`.
 Coordinate parse_coordinate(std::string_view option, std::string_view text);
 std::string to_string(const Coordinate& coordinate);
 
@@ -39,7 +39,7 @@ struct PointsOptions {
 std::vector<vec2> sampler_points(const PointsOptions& options, const SampleSource& source,
                                  std::uint32_t first, std::uint32_t count);
 
-/// Star discrepancy in the L2 norm of a growing point set, at 1, 2, 4, … points and at the last. A value.
+/// L2 star discrepancy of a growing point set at 1, 2, 4, … points and at the last. A value.
 class DiscrepancyCurve {
 public:
   struct Value {
@@ -53,7 +53,7 @@ public:
   const PointsOptions& options() const { return options_; }
   const SampleSource& source() const { return source_; }
   bool finished() const { return !values_.empty() && values_.back().count >= count_; }
-  /// The next value, which costs some count^2 operations.
+  /// Computes the next value, in about count^2 operations.
   void advance();
   std::span<const Value> values() const { return values_; }
 

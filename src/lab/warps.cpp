@@ -10,8 +10,7 @@ constexpr std::string_view kWarps[] = {"disc", "sphere",   "hemisphere",        
                                        "cone", "triangle", "spherical_rectangle", "gaussian"};
 
 const Field<WarpOptions> kFields[] = {
-    {{"warp", FieldType::choice, 0, 0, "", "The map of the unit square that is looked at", Invalidates::image,
-      kWarps},
+    {{"warp", FieldType::choice, 0, 0, "", "The map of the unit square", Invalidates::image, kWarps},
      [](WarpOptions& o) -> void* { return &o.warp; }},
     {{"cone_angle", FieldType::angle, 0.1, 180, "degrees", "From the cone's axis to its edge"},
      [](WarpOptions& o) -> void* { return &o.cone_angle; }},
@@ -19,12 +18,13 @@ const Field<WarpOptions> kFields[] = {
      [](WarpOptions& o) -> void* { return &o.grid; }},
 };
 
-// The rectangle's corner and edges; off centre and near, so that its solid angle is far from its area.
+// The rectangle's corner and edges; off centre and near, so that solid angle and area differ strongly.
 const vec3 kCorner(-1.2f, -0.6f, 0.5f), kEdgeX(2, 0, 0), kEdgeY(0, 1.6f, 0);
 // The triangle's corners, those of b0, b1 and b2 = 1 - b0 - b1.
 const vec3 kA(0), kB(1, 0, 0), kC(0.5f, 0.8660254f, 0);
 constexpr double kTriangleArea = 0.4330127018922193;
-constexpr float kGaussianSigma = 1.0f / 3, kGaussianRadius = 1; // as the pixel filter: sigma is a third
+constexpr float kGaussianSigma = 1.0f / 3,
+                kGaussianRadius = 1; // like the pixel filter: sigma is a third of the radius
 const TruncatedGaussian kGaussian(kGaussianSigma, kGaussianRadius);
 
 float cap_of(const WarpOptions& options) {
@@ -153,7 +153,7 @@ vec3 WarpLesson::replay(std::uint64_t sample) const {
 }
 
 void WarpLesson::advance(std::uint64_t count) {
-  // A coordinate is a few roundings wide of the truth: only what is farther out is outside.
+  // Coordinates have a few rounding errors: only points beyond those are outside.
   constexpr float kRounding = 1e-5f;
   const std::uint64_t end = done_ + std::min(count, samples_ - done_);
   Sampler sampler = source_.sampler();

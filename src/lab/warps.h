@@ -1,6 +1,6 @@
 #pragma once
-// The lesson `warps`: where the maps of sampling/warp.h take the unit square, and whether the density that
-// they claim is the one that they have.
+// The lesson `warps`: the maps of the unit square in sampling/warp.h, and a test of their samples against
+// their pdf.
 
 #include "core/fields.h"
 #include "lab/histogram.h"
@@ -27,7 +27,7 @@ struct WarpOptions {
   bool operator==(const WarpOptions&) const = default;
 };
 std::span<const Field<WarpOptions>> warp_fields();
-/// Whether the warp looks at the option of this key.
+/// Whether the warp has the option of this key.
 bool warp_uses(Warp warp, std::string_view key);
 
 /// One warp with its density and a chart of its domain.
@@ -35,18 +35,17 @@ class WarpMap {
 public:
   explicit WarpMap(const WarpOptions& options);
 
-  /// Where u in [0, 1)^2 goes: a point of the plane z = 0 (disc, gaussian), a direction (sphere, hemisphere,
-  /// cosine_hemisphere, cone), a point of the triangle (0, 0), (1, 0), (1/2, sqrt(3)/2), or a point of the
-  /// rectangle [-1.2, 0.8] x [-0.6, 1] at z = 0.5 that the origin sees.
+  /// The image of u in [0, 1)^2: a point of the plane z = 0 (disc, gaussian), a direction (sphere,
+  /// hemisphere, cosine_hemisphere, cone), a point of the triangle (0, 0), (1, 0), (1/2, sqrt(3)/2), or a
+  /// point of the rectangle [-1.2, 0.8] x [-0.6, 1] at z = 0.5 that the origin sees.
   vec3 map(vec2 u) const;
-  /// What the warp's own pdf says of the point, per unit area of the plane, the triangle or the rectangle, or
-  /// per sr.
+  /// The warp's pdf at the point, per unit area of the plane, the triangle or the rectangle, or per sr.
   double pdf(vec3 point) const;
-  /// Is it a direction's density?
+  /// Whether the pdf is a density of directions.
   bool on_sphere() const;
 
-  /// A chart: the square's coordinates of a point of the domain; outside of [0, 1]^2 where the point is
-  /// outside of the domain. Azimuth and radius or z, or along two edges.
+  /// The chart coordinates of a point: azimuth and radius or z, or along two edges. They are outside [0, 1]^2
+  /// if the point is outside the domain.
   vec2 chart(vec3 point) const;
   vec3 from_chart(vec2 q) const;
   /// Area or solid angle of the domain per unit area of the chart.
@@ -54,12 +53,11 @@ public:
 
 private:
   WarpOptions options_;
-  float one_minus_cos_max_; ///< of the sphere's cap about +z that is the domain
+  float one_minus_cos_max_; ///< of the domain, a cap of the sphere about +z
   SphericalRectangle rectangle_;
 };
 
-/// Draws points through a warp and counts them. A value; draws as the source's independent, replayable
-/// samples of Dimension::film.
+/// Counts points drawn with a warp. A value; the draws are samples of Dimension::film, which can be repeated.
 class WarpLesson {
 public:
   WarpLesson(const WarpOptions& options, SampleSource source, std::uint64_t samples);
@@ -71,7 +69,7 @@ public:
   std::uint64_t done() const { return done_; }
   bool finished() const { return done_ >= samples_; }
   void advance(std::uint64_t count);
-  /// Where one sample goes, made again.
+  /// Repeats the draw of one sample.
   vec3 replay(std::uint64_t sample) const;
   /// Cells of the chart; column 0 begins at chart x = 0.
   const Histogram& histogram() const { return histogram_; }

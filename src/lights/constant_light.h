@@ -8,11 +8,13 @@
 
 namespace candela {
 
-/// The same radiance from all around. The colour is the radiance, W/(m^2 sr).
+/// The same radiance from every direction.
 struct ConstantLightModel {
   bool operator==(const ConstantLightModel&) const = default;
 
   static constexpr std::string_view kName = "constant";
+  static constexpr std::string_view kHelp = "the same from every direction";
+  static constexpr FieldInfo kColor = color_row("W/(m^2 sr)", "Radiance");
   static constexpr std::array<LightRow<ConstantLightModel>, 0> rows() { return {}; }
   std::string problem() const { return ""; }
 };

@@ -7,12 +7,14 @@
 
 namespace candela {
 
-/// Parallel light from afar. The colour is the irradiance on a surface that faces it, W/m^2.
+/// Parallel light from a distant source.
 struct DirectionalLightModel {
   vec3 direction{0, -1, 0}; ///< along which the light travels, any length
   bool operator==(const DirectionalLightModel&) const = default;
 
   static constexpr std::string_view kName = "directional";
+  static constexpr std::string_view kHelp = "parallel, from a distant source";
+  static constexpr FieldInfo kColor = color_row("W/m^2", "Irradiance of a surface that faces the light");
   static constexpr auto rows() {
     return std::array{LightRow<DirectionalLightModel>{
         direction_row("The direction in which the light travels"), &DirectionalLightModel::direction}};

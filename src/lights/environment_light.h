@@ -12,23 +12,25 @@
 
 namespace candela {
 
-/// The radiance of a picture from all around. The colour is a factor.
+/// The radiance of a panorama around the scene.
 struct EnvironmentLightModel {
   EnvironmentMapping mapping = EnvironmentMapping::latlong;
   float rotation = 0; ///< radians, turns the panorama about `up`, counter-clockwise seen from its tip
   vec3 up{0, 1, 0};   ///< what the panorama's up (its +y) is in the world; any length
-  std::shared_ptr<const Panorama> panorama = nullptr;            ///< null: the same from everywhere
+  std::shared_ptr<const Panorama> panorama = nullptr;            ///< null: constant radiance
   bool operator==(const EnvironmentLightModel&) const = default; ///< the panorama by identity
 
   static constexpr std::string_view kName = "environment";
+  static constexpr std::string_view kHelp = "a panorama around the scene";
+  static constexpr FieldInfo kColor =
+      color_row("", "Multiplies the panorama's radiance; without a panorama, the radiance in W/(m^2 sr)");
   static constexpr std::array<std::string_view, 4> kMappings = {"latlong", "angular", "cross", "faces"};
   static constexpr auto rows() {
     using Row = LightRow<EnvironmentLightModel>;
     return std::array{
         Row{{"mapping", FieldType::choice, 0, 0, "",
-             "How the panorama shows the directions: latitude and longitude, Debevec's angular map, the "
-             "cross of a "
-             "cube, its six faces",
+             "How directions map to the panorama: latitude and longitude, Debevec's angular map, an unfolded "
+             "cube, or its six faces",
              Invalidates::scene, kMappings},
             &EnvironmentLightModel::mapping},
         Row{{"rotation", FieldType::angle, -360, 360, "degrees",
@@ -39,10 +41,10 @@ struct EnvironmentLightModel {
             &EnvironmentLightModel::up},
     };
   }
-  std::string problem() const;
+  std::string problem() const { return is_zero(up) ? "up: has no length; give a direction" : ""; }
 };
 
-/// A panorama, sampled in proportion to what it sends.
+/// A panorama, sampled in proportion to its radiance.
 struct EnvironmentLight {
   const EnvironmentMap* map = nullptr;
   mat3 world_from_map{1.0f}; ///< a rotation
@@ -52,8 +54,8 @@ struct EnvironmentLight {
   static constexpr LightKind kind = LightKind::infinite;
 
   Spectrum radiance_from(vec3 direction) const { return factor * map->radiance(direction * world_from_map); }
-  /// For looking up many directions: all are located, which sends for their texels, before the first is
-  /// waited for. With a panorama of 2048 x 1024 that halves the time.
+  /// For looking up many directions: locating them all first prefetches their texels. That halves the time
+  /// for a panorama of 2048 x 1024.
   EnvironmentMap::Place locate(vec3 direction) const { return map->locate(direction * world_from_map); }
   /// radiance_from() and pdf() at once.
   RadiancePdf radiance_pdf(const LightSamplingContext& ctx, const EnvironmentMap::Place& at) const {
@@ -91,7 +93,7 @@ inline mat3 world_from_panorama(const EnvironmentLightModel& light) {
   return mat3(glm::rotate(turn, static_cast<double>(light.rotation), y));
 }
 
-/// The same radiance from everywhere where there is no picture.
+/// A constant light where there is no panorama.
 inline std::variant<ConstantLight, EnvironmentLight> light_of(const EnvironmentLightModel& m, Spectrum color,
                                                               const EnvironmentMapSource& maps) {
   if (m.panorama) return EnvironmentLight{maps(m), world_from_panorama(m), color};

@@ -15,22 +15,21 @@
 namespace candela {
 
 /// What every light offers.
-/// - kName: what people call it.
-/// - kind: how it can be found.
-/// - sample: nothing where the light cannot be seen from the point, or where it has nothing for its domain.
-///   `u` in [0, 1)^2.
-/// - pdf: density in 1/sr with which sample() gives the direction towards `point` (area lights) or towards
-///   `direction` (infinite ones); 0 where it gives none, and of delta lights.
-/// - power: emitted power in W, for choosing among lights; of infinite ones, and of those whose attenuation
-/// is
-///   not physical, that which meets a scene of the given radius.
-/// - bounds: where it is and which way it shines; nothing for lights that are at no place or do not fall off
+/// - kName: name for users.
+/// - kind: how it is sampled.
+/// - sample: a direction towards the light; nothing if the light is not visible from the point, or has no
+///   direction in its domain. `u` in [0, 1)^2.
+/// - pdf: density in 1/sr of sample() for the direction towards `point` (area lights) or for `direction`
+///   (infinite lights); 0 for directions that it never gives, and for delta lights.
+/// - power: emitted power in W, for light selection; for infinite lights and for unphysical attenuations, the
+///   power that reaches a scene of the given radius.
+/// - bounds: position and orientation; nothing for lights without a place, and for those that do not fall off
 ///   with the square of the distance ("unbounded").
 ///
 /// Infinite lights have radiance_from(direction): W/(m^2 sr) from a unit direction away from the scene.
-/// Lights that may be unbounded say how strong they are, in luminance:
-/// - mean_irradiance(density): W/m^2 on an average plane, where that is the same for all points;
-/// - typical_irradiance(): else, what it would be somewhere, for a scale.
+/// Lights that may be unbounded state their strength as luminance:
+/// - mean_irradiance(density): W/m^2 on an average plane, if it is the same for all points;
+/// - typical_irradiance(): otherwise, a representative value.
 template <class L>
 concept LightModel = requires(const L& light, const LightSamplingContext& ctx, vec2 u, vec3 v, float radius) {
   { L::kName } -> std::convertible_to<std::string_view>;

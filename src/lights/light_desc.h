@@ -13,7 +13,7 @@ inline constexpr int kLightTypeCount = static_cast<int>(std::variant_size_v<Ligh
 struct LightDesc {
   std::string name;
   LightDescModel model;
-  vec3 color{1};                                     ///< its unit is the model's
+  vec3 color{1};                                     ///< in the unit of the model's kColor
   float scale = 1;                                   ///< multiplies color
   bool operator==(const LightDesc&) const = default; ///< panoramas by identity
 };
@@ -26,9 +26,9 @@ inline std::string_view light_type_name(const LightDesc& light) {
   return light_type_names()[light.model.index()];
 }
 
-/// What a light of the type is where nothing else is said.
+/// A light of the type with default values.
 LightDesc default_light(int type);
-/// Another type. Values of the same key stay, the others become the new type's defaults.
+/// Changes the type. Values of the same key stay, the others become the new type's defaults.
 void change_type(LightDesc& light, int type);
 
 /// The rows of a light's values: those of its type, then those of all. The addresses are those in a LightDesc
@@ -38,17 +38,17 @@ inline std::span<const Field<LightDesc>> light_fields(const LightDesc& light) {
   return light_fields(light_type(light));
 }
 
-/// Where the light is, in world space; null where it is at no place.
+/// The light's position in world space; null if its model has none.
 const vec3* light_position(const LightDesc& light);
 vec3* light_position(LightDesc& light);
-/// The picture that it shows, if there is one.
+/// The light's panorama, if it has one.
 std::shared_ptr<const Panorama> light_panorama(const LightDesc& light);
 
-/// The light as transport samples it; `maps` makes environment maps, or has them.
+/// The light as transport samples it; `maps` makes environment maps, or returns existing ones.
 Light make_light(const LightDesc& light, const EnvironmentMapSource& maps);
 
-/// The first thing that breaks a row, or what the rows cannot say: "key: cause; remedy"; empty where all is
-/// well.
+/// The first value that does not fit its row or the model: "key: cause; remedy"; empty if all is well. Does
+/// not read a panorama's pixels; see panorama_problem().
 std::string light_problem(const LightDesc& light);
 
 } // namespace candela

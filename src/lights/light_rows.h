@@ -3,12 +3,14 @@
 // entry of the list in lights/light.h.
 //
 //   kName      what files call it
-//   rows()     an std::array of LightRow, one for each of its values
-//   problem()  what the rows cannot say: "key: cause; remedy"; empty where all is well
+//   kHelp      where its light comes from, in a few words
+//   kColor     the row of LightDesc::color (see color_row()), in the unit of the model
+//   rows()     a std::array of LightRow, one for each of its values
+//   problem()  what the rows cannot check: "key: cause; remedy"; empty if all is well
 //
 // and light_of(model, color, maps), the light as transport samples it (lights/light.h has what that offers).
 //
-// One that is at a place has a `position` in world space, which hands move.
+// A model with a place has a `position` in world space, which the viewer can move.
 
 #include "core/fields.h"
 
@@ -24,7 +26,7 @@ enum class EnvironmentMapping : int { latlong, angular, cross, faces };
 
 class EnvironmentMap;
 struct EnvironmentLightModel;
-/// Makes the map of a model that has a panorama; who asks does not own it.
+/// Makes the map of a model that has a panorama; the caller does not own it.
 using EnvironmentMapSource = std::function<const EnvironmentMap*(const EnvironmentLightModel&)>;
 
 /// The row of one value of a model.
@@ -33,13 +35,16 @@ struct LightRow : FieldInfo {
   std::variant<vec3 Model::*, float Model::*, EnvironmentMapping Model::*> member;
 };
 
-/// Whether a direction or the coefficients of a fall-off say nothing.
+/// Whether a direction has no length, or the coefficients of a fall-off are all zero.
 inline bool is_zero(vec3 v) { return !(glm::length(v) > 0); }
 
-// The rows that several models have alike.
+// The rows that several models share.
 
 inline constexpr double kAnyCoordinate = std::numeric_limits<double>::infinity();
 
+constexpr FieldInfo color_row(std::string_view unit, std::string_view help) {
+  return {"color", FieldType::color, 0, 1e9, unit, help, Invalidates::scene, {}, true};
+}
 constexpr FieldInfo position_row() {
   return {"position", FieldType::point,     -kAnyCoordinate,   kAnyCoordinate,
           "",         "Where the light is", Invalidates::scene};
@@ -53,7 +58,7 @@ constexpr FieldInfo attenuation_row() {
           0,
           1e9,
           "",
-          "a b c: intensity / (a + b r + c r^2) arrives at the distance r; 0 0 1 is physical",
+          "a b c: the intensity is divided by a + b r + c r^2 at the distance r; 0 0 1 is physical",
           Invalidates::scene};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The pictures that environment lights show.
+// The images of environment lights.
 
 #include "imaging/image.h"
 
@@ -8,7 +8,7 @@
 
 namespace candela {
 
-/// The radiance that comes from all around, as a picture; six faces of a cube are stacked in the order of
+/// Incident radiance from all directions as an image; the six faces of a cube are stacked in the order of
 /// their files. Pixels are finite and not negative.
 struct Panorama {
   std::string name;
@@ -16,5 +16,9 @@ struct Panorama {
   Image image;
   bool operator==(const Panorama&) const = default;
 };
+
+/// What is wrong with its pixels, all of which are read: "cause; remedy"; empty where all is well. Readers
+/// guarantee that there is nothing.
+std::string panorama_problem(const Panorama& panorama);
 
 } // namespace candela

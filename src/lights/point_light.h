@@ -7,7 +7,7 @@
 
 namespace candela {
 
-/// A point that sends the same to everywhere. The colour is its intensity, W/sr.
+/// A point that emits equally in all directions.
 struct PointLightModel {
   vec3 position{0};
   /// Coefficients a, b, c: at the distance r the irradiance on a facing surface is intensity / (a + b r + c
@@ -16,6 +16,8 @@ struct PointLightModel {
   bool operator==(const PointLightModel&) const = default;
 
   static constexpr std::string_view kName = "point";
+  static constexpr std::string_view kHelp = "from a point, equally in all directions";
+  static constexpr FieldInfo kColor = color_row("W/sr", "Radiant intensity");
   static constexpr auto rows() {
     using Row = LightRow<PointLightModel>;
     return std::array{Row{position_row(), &PointLightModel::position},

@@ -5,7 +5,7 @@
 
 namespace candela {
 
-/// A point that sends light into a cone. The colour is the intensity on its axis, W/sr.
+/// A point that emits into a cone.
 struct SpotLightModel {
   vec3 position{0};
   vec3 direction{0, -1, 0}; ///< the axis, any length
@@ -17,6 +17,8 @@ struct SpotLightModel {
   bool operator==(const SpotLightModel&) const = default;
 
   static constexpr std::string_view kName = "spot";
+  static constexpr std::string_view kHelp = "from a point, into a cone";
+  static constexpr FieldInfo kColor = color_row("W/sr", "Radiant intensity on the axis");
   static constexpr auto rows() {
     using Row = LightRow<SpotLightModel>;
     return std::array{

@@ -1,6 +1,6 @@
 #pragma once
-// The perfectly specular part of a BSDF, whole: for ray tracing that follows every such direction instead of
-// choosing one (Whitted 1980).
+// All delta lobes of a BSDF, for ray tracing that follows every specular direction instead of sampling one
+// (Whitted 1980).
 
 #include "materials/bsdf.h"
 

@@ -5,7 +5,7 @@
 
 namespace candela {
 
-/// Matte: reflects the same to everywhere (Lambert).
+/// Matte: reflects equally in all directions (Lambert).
 struct DiffuseMaterial {
   ColorParameter diffuse = vec3(0.5f); ///< reflectance
   bool operator==(const DiffuseMaterial&) const = default;

@@ -1,6 +1,5 @@
 #pragma once
-// Scattered directions by strategy: the BSDF's own, or over the hemisphere, to compare what they cost in
-// noise.
+// Strategies for sampling directions: by the BSDF, or over the hemisphere, to compare their noise.
 
 #include "materials/bsdf.h"
 #include "sampling/direction_type.h"
@@ -41,7 +40,8 @@ inline float direction_pdf(const Bsdf& bsdf, vec3 wo, vec3 wi, DirectionSampling
 
 namespace detail {
 
-/// sample_direction() by `uniform` or `cosine`; apart, so that the other is small enough to be inlined.
+/// sample_direction() for `uniform` and `cosine`; a separate function, so that the other one is small enough
+/// to be inlined.
 [[gnu::noinline]] inline std::optional<BsdfSample> sample_by_strategy(const Bsdf& bsdf, vec3 wo, BsdfU u,
                                                                       DirectionSampling how) {
   const float delta = bsdf_delta_probability(bsdf, wo);
@@ -57,8 +57,8 @@ namespace detail {
 } // namespace detail
 
 /// As BsdfModel::sample, but with `uniform` and `cosine` the lobes without delta are sampled over the
-/// hemisphere on wo's side, or over both where such a lobe transmits. Delta lobes are still taken with
-/// delta_probability, for no other density ever finds them; so every strategy has the same expectation.
+/// hemisphere on wo's side, or over both where such a lobe transmits. Delta lobes are still sampled with
+/// delta_probability, since no other density finds them; so all strategies have the same expectation.
 [[gnu::always_inline]] inline std::optional<BsdfSample> sample_direction(const Bsdf& bsdf, vec3 wo, BsdfU u,
                                                                          DirectionSampling how) {
   if (how == DirectionSampling::bsdf) return bsdf_sample(bsdf, wo, u);

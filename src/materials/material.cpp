@@ -1,24 +1,16 @@
 #include "materials/material.h"
 
+#include "core/model_fields.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
-#include <vector>
 
 namespace candela {
 
 namespace {
 
-template <std::size_t I>
-using ModelAt = std::variant_alternative_t<I, MaterialModel>;
-using AllTypes = std::make_index_sequence<std::variant_size_v<MaterialModel>>;
-
-template <std::size_t... I>
-constexpr auto type_names(std::index_sequence<I...>) {
-  return std::array{ModelAt<I>::kName...};
-}
-constexpr auto kTypeNames = type_names(AllTypes());
+constexpr auto kTypeNames = model_names<Material>();
 constexpr FieldInfo kTypeField{
     "type", FieldType::choice, 0, 0, "", "How the surface scatters light", Invalidates::scene, kTypeNames};
 
@@ -27,18 +19,11 @@ ParameterRef emission_of(Material& m) { return {nullptr, &m.emission}; }
 
 const MaterialField kCommonFields[] = {
     {{{"opacity", FieldType::real, 0, 1, "",
-       "Share of light that meets the surface; the rest passes straight on", Invalidates::scene},
+       "Share of the light that interacts with the surface; the rest passes straight through",
+       Invalidates::scene},
       [](Material& m) -> void* { return &m.opacity.value; }},
      opacity_of},
-    {{{"emission",
-       FieldType::color,
-       0,
-       1e9,
-       "W/(m^2 sr)",
-       "Radiance that the surface sends out",
-       Invalidates::scene,
-       {},
-       true},
+    {{{"emission", FieldType::color, 0, 1e9, "W/(m^2 sr)", "Emitted radiance", Invalidates::scene, {}, true},
       [](Material& m) -> void* { return &m.emission.value; }},
      emission_of},
     {{{"two_sided_emission", FieldType::boolean, 0, 0, "", "Emit from both sides, not only the normal's",
@@ -46,49 +31,26 @@ const MaterialField kCommonFields[] = {
       [](Material& m) -> void* { return &m.two_sided_emission; }}},
 };
 
+/// The parameter of a row; empty where it is a plain value.
 template <std::size_t Type, std::size_t Row>
 ParameterRef parameter_at(Material& material) {
-  static constexpr auto rows = ModelAt<Type>::rows();
-  auto& model = std::get<Type>(material.model);
-  return std::visit(
-      [&](auto member) -> ParameterRef {
-        using Value = std::decay_t<decltype(model.*member)>;
-        if constexpr (std::is_same_v<Value, NumberParameter>)
-          return {&(model.*member), nullptr};
-        else if constexpr (std::is_same_v<Value, ColorParameter>)
-          return {nullptr, &(model.*member)};
-        else
-          return {};
-      },
-      rows[Row].member);
+  return with_member<Type, Row>(material, [](auto& member) -> ParameterRef {
+    using Member = std::decay_t<decltype(member)>;
+    if constexpr (std::is_same_v<Member, NumberParameter>)
+      return {&member, nullptr};
+    else if constexpr (std::is_same_v<Member, ColorParameter>)
+      return {nullptr, &member};
+    else
+      return {};
+  });
 }
 
 template <std::size_t Type, std::size_t Row>
-void* value_at(Material& material) {
-  if (ParameterRef parameter = parameter_at<Type, Row>(material)) return parameter.value();
-  static constexpr auto rows = ModelAt<Type>::rows();
-  auto& model = std::get<Type>(material.model);
-  return std::visit([&](auto member) -> void* { return &(model.*member); }, rows[Row].member);
-}
-
-template <std::size_t Type>
-std::vector<MaterialField> fields_of_type() {
-  static constexpr auto rows = ModelAt<Type>::rows();
-  std::vector<MaterialField> out;
-  [&]<std::size_t... Row>(std::index_sequence<Row...>) {
-    (out.push_back({{rows[Row], value_at<Type, Row>},
-                    rows[Row].member.index() < 2 ? parameter_at<Type, Row> : nullptr,
-                    rows[Row].kept}),
-     ...);
-  }
-  (std::make_index_sequence<rows.size()>());
-  out.insert(out.end(), std::begin(kCommonFields), std::end(kCommonFields));
-  return out;
-}
-
-template <std::size_t... Type>
-auto fields_of_types(std::index_sequence<Type...>) {
-  return std::array{fields_of_type<Type>()...};
+MaterialField material_field() {
+  static constexpr auto kRows = ModelOf<Material, Type>::rows();
+  const bool is_parameter = kRows[Row].member.index() < 2; // NumberParameter, ColorParameter
+  return {model_field<Material, Type, Row>(), is_parameter ? parameter_at<Type, Row> : nullptr,
+          kRows[Row].kept};
 }
 
 /// "emission.offset: …" of a texture's use.
@@ -114,33 +76,25 @@ std::string texture_use_problem(const MaterialField& row, const ParameterRef& pa
 const FieldInfo& material_type_field() { return kTypeField; }
 std::span<const std::string_view> material_type_names() { return kTypeNames; }
 
-Material default_material(int type) {
-  Material material;
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    ((static_cast<int>(I) == type ? void(material.model.emplace<I>()) : void()), ...);
-  }
-  (AllTypes());
-  return material;
-}
+Material default_material(int type) { return with_model<Material>(type); }
 
 void change_type(Material& material, int type) {
-  if (material_type(material) == type) return;
-  Material changed = default_material(type);
-  changed.name = material.name;
-  for (const MaterialField& to : material_fields(changed)) {
-    const MaterialField* from = find_material_field(material_type(material), to.key);
-    if (from == nullptr || !from->kept || !to.kept) continue;
-    if (to.parameter != nullptr && from->parameter != nullptr &&
-        to.parameter(changed).copy_from(from->parameter(material)))
-      continue;
-    if (to.type == from->type) field_copy(to, to.address(changed), from->address(material));
-  }
-  material = std::move(changed);
+  auto copy = [](const MaterialField& to, Material& changed, const MaterialField& from, Material& old) {
+    if (!from.kept || !to.kept) return;
+    if (to.parameter != nullptr && from.parameter != nullptr &&
+        to.parameter(changed).copy_from(from.parameter(old)))
+      return;
+    if (to.type == from.type) field_copy(to, to.address(changed), from.address(old));
+  };
+  change_model(
+      material, type, [](int t) { return material_fields(t); }, copy);
 }
 
 std::span<const MaterialField> material_fields(int type) {
-  static const auto all = fields_of_types(AllTypes());
-  return all[static_cast<std::size_t>(type)];
+  static const auto tables = model_tables<Material, MaterialField>(
+      []<std::size_t Type, std::size_t Row>() { return material_field<Type, Row>(); },
+      [](auto) { return std::span(kCommonFields); });
+  return tables[static_cast<std::size_t>(type)];
 }
 std::span<const MaterialField> common_material_fields() { return kCommonFields; }
 

@@ -13,7 +13,7 @@ inline constexpr int kMaterialTypeCount = static_cast<int>(std::variant_size_v<M
 struct Material {
   std::string name;
   MaterialModel model;
-  NumberParameter opacity = 1.0f;    ///< share of light that meets the surface at all
+  NumberParameter opacity = 1.0f;    ///< share of the light that interacts with the surface
   ColorParameter emission = vec3(0); ///< radiance, W/(m^2 sr)
   bool two_sided_emission = false;   ///< otherwise only from the side of the geometric normal
   bool operator==(const Material&) const = default;
@@ -34,9 +34,9 @@ inline std::string_view material_type_name(const Material& material) {
   return material_type_names()[material.model.index()];
 }
 
-/// What a material of the type is where nothing else is said.
+/// A material of the type with default values.
 Material default_material(int type);
-/// Another type. Values that both types have (ModelRow::kept) stay, the others become the new type's
+/// Changes the type. Values that both types have (ModelRow::kept) stay, the others become the new type's
 /// defaults.
 void change_type(Material& material, int type);
 
@@ -62,8 +62,7 @@ void each_parameter(M& material, Visit visit) {
     if (row.parameter != nullptr) visit(row, row.parameter(const_cast<Material&>(material)));
 }
 
-/// What light that enters the surface fades by: sigma_a of the inside, 1/scene unit; nothing where no light
-/// enters.
+/// The absorption coefficient sigma_a of the inside, 1/scene unit; nothing if no light enters the surface.
 std::optional<vec3> inside_absorption(const MaterialModel& model);
 
 /// Calls use(closure) with the closure (bsdf/) of the model, at(parameter) being a parameter's value.
@@ -72,8 +71,7 @@ decltype(auto) with_closure(const MaterialModel& model, const At& at, Use use) {
   return std::visit([&](const auto& m) -> decltype(auto) { return use(m.closure(at)); }, model);
 }
 
-/// The first thing that breaks its row or names a texture that there is not: "roughness: …"; empty where all
-/// is well.
+/// The first value that does not fit its row, or a missing texture: "roughness: …"; empty if all is well.
 std::string material_problem(const Material& material, std::size_t texture_count);
 
 } // namespace candela

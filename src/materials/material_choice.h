@@ -1,6 +1,6 @@
 #pragma once
-// A material of any type, with one value for each key that any type has: what the settings override.* and the
-// lab's options say.
+// A material of any type, with one value for each key of any type, for the settings override.* and the lab's
+// options.
 
 #include "materials/material.h"
 

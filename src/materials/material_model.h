@@ -1,12 +1,12 @@
 #pragma once
-// What every model of a material offers. One model is one file of this folder, and an entry of the list in
+// The interface of all models of materials. One model is one file of this folder, and an entry of the list in
 // materials/material.h.
 //
 //   kName        what files call it
 //   rows()       an std::array of ModelRow, one for each of its values
 //   closure(at)  the closure of bsdf/ at a hit: at(parameter) is the value of a parameter there
 //
-// One whose inside light may enter has, too:
+// A model whose inside light may enter also has:
 //
 //   absorption   sigma_a of the inside, 1/scene unit
 

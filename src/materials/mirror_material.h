@@ -5,7 +5,7 @@
 
 namespace candela {
 
-/// Ideal mirror, perhaps with a matte part.
+/// Ideal mirror with an optional matte part.
 struct MirrorMaterial {
   ColorParameter specular = vec3(1); ///< reflectance
   ColorParameter diffuse = vec3(0);
@@ -15,12 +15,12 @@ struct MirrorMaterial {
   static constexpr auto rows() {
     using Row = ModelRow<MirrorMaterial>;
     return std::array{
-        // Of others it means more of the same; of a mirror, that it is half matte. So it is not kept.
+        // Not kept when the type changes: here it makes the mirror partly matte.
         Row{reflectance_row("diffuse", "Lambertian reflectance"), &MirrorMaterial::diffuse, false},
         Row{reflectance_row("specular", "Specular reflectance"), &MirrorMaterial::specular},
     };
   }
-  /// The diffuse part gives in where both ask for more than 1.
+  /// The diffuse part is reduced if the sum exceeds 1.
   Mirror closure(const auto& at) const {
     const vec3 reflected = at(specular);
     return {reflected, glm::min(at(diffuse), 1.0f - reflected)};

@@ -7,8 +7,8 @@
 
 namespace candela {
 
-/// A constant, or what a texture shows: value * texel + offset, kept within the range of the parameter's row.
-/// T is float or vec3.
+/// A constant, or a texture's value * texel + offset, clamped to the range of the parameter's row. T is float
+/// or vec3.
 template <class T>
 struct Parameter {
   T value{};   ///< the constant, or the factor of the texture
@@ -20,13 +20,19 @@ struct Parameter {
   bool operator==(const Parameter&) const = default;
 
   bool is_textured() const { return use.texture >= 0; }
-  /// How a texture is looked at where nothing else is said: colours are sRGB, numbers are not encoded.
+  /// The default use of a texture: colours are sRGB, numbers are linear.
   static TextureUse standard_use() {
     TextureUse standard;
     if constexpr (std::is_same_v<T, float>) standard.color_space = ColorSpace::linear;
     return standard;
   }
 };
+
+/// Of a field's value (core/model_fields.h): the constant.
+template <class T>
+void* value_address(Parameter<T>& parameter) {
+  return &parameter.value;
+}
 
 using NumberParameter = Parameter<float>;
 using ColorParameter = Parameter<vec3>;

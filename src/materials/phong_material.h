@@ -30,8 +30,7 @@ struct PhongMaterial {
             &PhongMaterial::exponent},
     };
   }
-  /// No reflection gives back more than it got: where both lobes ask for more than 1, the diffuse one gives
-  /// in.
+  /// Conserves energy: the diffuse lobe is reduced if the sum exceeds 1.
   Phong closure(const auto& at) const {
     const vec3 gloss = at(specular);
     return {glm::min(at(diffuse), 1.0f - gloss), gloss, at(exponent)};

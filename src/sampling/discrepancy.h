@@ -1,5 +1,5 @@
 #pragma once
-// How evenly points fill the unit square, in a number.
+// A measure of how evenly points fill the unit square.
 
 #include "core/math.h"
 

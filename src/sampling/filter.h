@@ -1,5 +1,5 @@
 #pragma once
-// Reconstruction filters: how a pixel weighs the film around it.
+// Reconstruction filters: the weights of the film around a pixel.
 
 #include "core/math.h"
 #include "sampling/filter_type.h"

@@ -1,7 +1,6 @@
 #pragma once
-// The random numbers of a render. There is no state to advance: each is a function of (seed, pixel, sample,
-// bounce, dimension, index), so that any path can be traced again alone, and threads, tiles and order cannot
-// matter.
+// The random numbers of a render. They have no state: each is a function of (seed, pixel, sample, bounce,
+// dimension, index), so that any single path can be traced again, independent of threads, tiles and order.
 
 #include "core/hash.h"
 #include "core/math.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Sampling of what a rectangle or triangle covers of the sphere around a point.
+// Sampling of the solid angle of a rectangle or triangle as seen from a point.
 
 #include "core/math.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Drawing cells of a large grid in proportion to their weights.
+// Sampling cells of a large grid in proportion to their weights.
 
 #include "core/math.h"
 #include "core/progress.h"

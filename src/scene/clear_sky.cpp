@@ -9,7 +9,7 @@ namespace candela {
 namespace {
 
 constexpr double kPiDouble = std::numbers::pi;
-/// Illuminance of the sun on a surface facing it over the luminance of the zenith, sr: 90 klx and 4.3
+/// The sun's illuminance on a surface that faces it, over the zenith's luminance, sr: 90 klx over 4.3
 /// kcd/m^2.
 constexpr double kSunToZenith = 21;
 const glm::dvec3 kSunColor{1.12, 0.99, 0.76};
@@ -49,7 +49,7 @@ public:
   }
 
   glm::dvec3 radiance(glm::dvec3 d) const {
-    const double cos_theta = std::max(d.y, 0.01); // Perez's formula ends at the horizon
+    const double cos_theta = std::max(d.y, 0.01); // Perez's formula is valid above the horizon
     const double gamma = std::acos(std::clamp(glm::dot(d, sun_), -1.0, 1.0));
     const double zenith_gamma = std::acos(sun_.y);
     auto relative = [&](const Perez& f) { return f(cos_theta, gamma) / f(1, zenith_gamma); };
@@ -86,7 +86,7 @@ Image clear_sky_panorama(const ClearSky& clear, int width, int height, int subpi
         const glm::dvec3 d = direction((x + (i % subpixels + 0.5) / subpixels) / width,
                                        (y + (i / subpixels + 0.5) / subpixels) / height);
         if (d.y < 0)
-          sum += clear.ground * (0.6 + 0.4 * std::exp(8 * d.y)); // some haze towards the horizon
+          sum += clear.ground * (0.6 + 0.4 * std::exp(8 * d.y)); // haze towards the horizon
         else
           sum += sky.radiance(d);
         if (glm::dot(d, sun) > std::cos(clear.sun_radius))

@@ -39,7 +39,7 @@ Invalidates compare_material(const Material& a, const Material& b) {
   return worst;
 }
 
-/// Materials differ in ways that only shading sees, or in what the lights are made of.
+/// Some rows of materials affect shading alone, others also the lights.
 Invalidates compare_materials(const std::vector<Material>& a, const std::vector<Material>& b) {
   if (a.size() != b.size()) return Invalidates::scene;
   Invalidates worst = Invalidates::nothing;
@@ -64,7 +64,7 @@ std::string mesh_problem(const Mesh& mesh) {
   return {};
 }
 
-/// `checked` holds the meshes that are known to be well: many instances may share one.
+/// `checked` holds the meshes that need no second check: many instances may share one.
 std::string instance_problem(const SceneDesc& scene, const Instance& instance, std::size_t index,
                              std::set<const Mesh*>& checked) {
   std::size_t slots = 1;
@@ -170,7 +170,11 @@ std::string document_problem(const Document& document) {
     if (auto p = texture_problem(*scene.textures[i]); !p.empty()) return fmt::format("textures[{}].{}", i, p);
   }
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    if (auto p = light_problem(scene.lights[i]); !p.empty()) return fmt::format("lights[{}].{}", i, p);
+    const LightDesc& light = scene.lights[i];
+    if (auto p = light_problem(light); !p.empty()) return fmt::format("lights[{}].{}", i, p);
+    if (auto panorama = light_panorama(light))
+      if (auto p = panorama_problem(*panorama); !p.empty())
+        return fmt::format("lights[{}].panorama: {}", i, p);
   }
   std::set<const Mesh*> checked;
   for (std::size_t i = 0; i < scene.instances.size(); ++i)

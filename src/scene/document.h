@@ -1,7 +1,7 @@
 #pragma once
-// The Document is everything that decides an image; RenderSettings is the part of it that is not the scene.
-// The settings table at the bottom is the only list of settings: the command line, the panels, scene files,
-// the README and validation all iterate it.
+// The Document determines an image completely; RenderSettings is its part besides the scene. The settings
+// table below is the only list of settings: the command line, the panels, scene files, the README and
+// validation all iterate it.
 
 #include "imaging/display_settings.h"
 #include "imaging/view.h"
@@ -36,7 +36,7 @@ struct SamplerSettings {
 };
 
 struct AmbientOcclusionSettings {
-  float distance = 0; ///< scene units within which a surface occludes; 0: any
+  float distance = 0; ///< scene units within which surfaces occlude; 0: any
   bool operator==(const AmbientOcclusionSettings&) const = default;
 };
 
@@ -44,24 +44,25 @@ struct AmbientOcclusionSettings {
 struct PathSettings {
   LightSampling light_sampling = LightSampling::mis;
   MisHeuristic mis_heuristic = MisHeuristic::power;
-  int light_samples = 1; ///< shadow rays a vertex
+  int light_samples = 1; ///< shadow rays per vertex
   LightChoiceBy light_choice = LightChoiceBy::contribution;
   DirectionSampling direction_sampling = DirectionSampling::bsdf;
   int max_depth = -1; ///< 1: emitters seen directly, 2: direct light, -1: no limit
   RussianRoulette rr = RussianRoulette::throughput;
   int rr_depth = 1; ///< the segment after which Russian roulette starts
-  /// Of rr = throughput: what carries less than this continues with the probability throughput / threshold.
+  /// For rr = throughput: paths with less throughput continue with the probability throughput / threshold.
   float rr_threshold = 0.35f;
-  float rr_probability = 0.9f; ///< chance to go on, of rr = fixed
+  float rr_probability = 0.9f; ///< probability to continue, for rr = fixed
   PathComponent component = PathComponent::all;
-  int only_depth = 0; ///< show paths of this many segments alone; 0: all
-  /// Paths that go on from the first surface that is not specular, but for a pixel's first sample.
+  int only_depth = 0; ///< show only paths of this many segments; 0: all
+  /// Number of paths that continue from the first surface that is not specular (path splitting); a pixel's
+  /// first sample is not split.
   int split = 2;
-  float clamp = 0; ///< largest value of a sample's channel; 0: off (it biases)
+  float clamp = 0; ///< largest channel of a sample; 0: off (clamping is biased)
   bool operator==(const PathSettings&) const = default;
 };
 
-/// One material for the whole scene: its type and values; emission and opacity stay each surface's own.
+/// One material for the whole scene: type and values; surfaces keep their emission and opacity.
 struct OverrideSettings {
   int brdf = 0; ///< 0: none; else one more than the index of the material's type
   MaterialChoice values;
@@ -71,14 +72,14 @@ struct OverrideSettings {
   bool is_on() const { return brdf > 0; }
 };
 
-/// Blocks of pixels whose error is small stop early; the means of those that stop by luck are biased.
+/// Blocks of pixels with a small error stop early, which biases the result slightly.
 struct AdaptiveSettings {
-  float error = 0;  ///< relative error of a block at which it stops; 0: every pixel gets all samples
-  int min_spp = 16; ///< before any stops
+  float error = 0;  ///< relative error at which a block stops; 0: every pixel gets all samples
+  int min_spp = 16; ///< before a block may stop
   bool operator==(const AdaptiveSettings&) const = default;
 };
 
-/// When a render is finished; 0 switches a criterion off.
+/// Stopping criteria of a render; 0 disables one.
 struct StopSettings {
   int spp = 64;
   float time = 0;  ///< seconds of rendering
@@ -110,24 +111,24 @@ struct Document {
 std::span<const Field<Document>> settings_table();
 const Field<Document>* find_setting(std::string_view key);
 
-/// The material that all surfaces get where the override is on.
+/// The material of all surfaces if the override is on.
 Material overriding_material(const OverrideSettings& settings);
 
-/// `--set KEY=VALUE`; usage errors name the nearest key or the row's domain.
+/// Applies KEY=VALUE, as of `--set`; usage errors name the nearest key or the row's domain.
 void apply_setting(Document& document, std::string_view assignment);
 
-/// The heaviest consequence of turning `before` into `after`.
+/// The strongest consequence of changing `before` to `after`.
 Invalidates compare_documents(const Document& before, const Document& after);
 
-/// Equality that looks into meshes and textures.
+/// Equality that compares meshes and textures by value.
 bool same_content(const Document& a, const Document& b);
 
-/// Why nothing can be seen through the camera: a value outside of its row ("vertical_fov: …"), or a view that
-/// goes nowhere; empty if all is well.
+/// Why the camera is invalid: a value out of range ("vertical_fov: …"), or a view without a direction; empty
+/// if it is valid.
 std::string camera_value_problem(const Camera& camera);
 
-/// The first field of the document that breaks its row ("path.max_depth: …"), or a material index, texture
-/// index or mesh index out of range, or a bookmark without a name of its own; empty when all is well.
+/// The first problem of the document: a value out of range ("path.max_depth: …"), an index of a material,
+/// texture or mesh out of range, invalid pixels, or a bookmark without a unique name; empty if it is valid.
 std::string document_problem(const Document& document);
 
 } // namespace candela

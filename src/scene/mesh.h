@@ -1,5 +1,5 @@
 #pragma once
-// Bulk data of a scene: shared between copies of a Document and never changed once they are in one.
+// Bulk data of a scene: shared between copies of a Document, and immutable once in one.
 
 #include "core/bounds.h"
 #include "core/math.h"
@@ -9,13 +9,13 @@
 
 namespace candela {
 
-/// Triangles with one index per corner for all attributes; readers split vertices where attributes differ.
+/// Triangles with one index per corner for all attributes; readers split vertices with different attributes.
 struct Mesh {
   std::string name;
   std::string
       source; ///< the file it came from, for messages and for writing it back by reference; may be empty
-  /// In the file's coordinates: positions are relative to it, so that they keep their shape in floats however
-  /// far they lie from the file's origin. Instances hold it in their transform.
+  /// In the file's coordinates. Positions are relative to it, so that floats are precise enough far from the
+  /// file's origin. Instances include it in their transform.
   glm::dvec3 origin{0};
   std::vector<vec3> positions;
   std::vector<vec3>

@@ -16,7 +16,7 @@ constexpr std::string_view kShapeNames[] = {"mesh", "sphere",   "rectangle", "di
                                             "cube", "cylinder", "cone",      "torus"};
 static_assert(std::size(kShapeNames) == std::variant_size_v<Shape>);
 
-/// Lengths may be anything above 0.
+/// Lengths may be any number above 0.
 template <class S, auto Member>
 void* shape_member(Shape& shape) {
   return &(std::get<S>(shape).*Member);
@@ -38,11 +38,11 @@ const Field<Shape> kCylinderFields[] = {
     caps_row<CylinderShape, &CylinderShape::caps>("Closed by discs at both ends")};
 const Field<Shape> kConeFields[] = {
     length_row<ConeShape, &ConeShape::radius>("radius", "Radius of the base, in z = 0"),
-    length_row<ConeShape, &ConeShape::height>("height", "The apex is there on the z axis"),
+    length_row<ConeShape, &ConeShape::height>("height", "z of the apex, on the z axis"),
     caps_row<ConeShape, &ConeShape::caps>("Closed by the disc of its base")};
 const Field<Shape> kTorusFields[] = {
-    length_row<TorusShape, &TorusShape::radius>("radius", "Of the circle about which the tube lies"),
-    length_row<TorusShape, &TorusShape::minor_radius>("minor_radius", "Of the tube; below radius")};
+    length_row<TorusShape, &TorusShape::radius>("radius", "Radius of the circle at the tube's centre"),
+    length_row<TorusShape, &TorusShape::minor_radius>("minor_radius", "Radius of the tube; below radius")};
 
 } // namespace
 
@@ -88,7 +88,7 @@ Bounds3 shape_bounds(const Shape& shape) {
 
 namespace {
 
-/// Also what a transform made overflow.
+/// Clamps also coordinates that overflowed in a transform.
 vec3 within_reach(vec3 p) {
   auto limit = [](float x) { return std::isnan(x) ? 0 : std::clamp(x, -kMaxCoordinate, kMaxCoordinate); };
   return {limit(p.x), limit(p.y), limit(p.z)};
@@ -97,7 +97,7 @@ vec3 within_reach(vec3 p) {
 } // namespace
 
 Bounds3 instance_bounds(const std::vector<Instance>& instances) {
-  std::map<const Mesh*, Bounds3> meshes; // shared ones are looked through once
+  std::map<const Mesh*, Bounds3> meshes; // shared meshes are scanned once
   Bounds3 all, planes;
   for (const Instance& instance : instances) {
     Bounds3 box;
@@ -150,7 +150,7 @@ FieldInfo shape_limits(const Shape& shape, const Field<Shape>& row) {
     return decimal;
   };
   limits.minimum = shown(lo);
-  limits.above_minimum = false; // these fit themselves
+  limits.above_minimum = false; // these values are themselves valid
   limits.maximum = shown(hi);
   return limits;
 }

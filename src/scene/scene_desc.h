@@ -1,6 +1,6 @@
 #pragma once
-// What a scene is made of: values, cheap to copy (bulk data is shared), edited by the UI and the command
-// line.
+// The scene description: values that are cheap to copy (bulk data is shared), edited by the UI and the
+// command line.
 
 #include "core/bounds.h"
 #include "core/fields.h"
@@ -52,7 +52,7 @@ struct RectangleShape { ///< [-1, 1]^2 in the xy plane, normal +z, as in Mitsuba
 struct DiscShape { ///< unit disc in the xy plane, normal +z
   bool operator==(const DiscShape&) const = default;
 };
-struct PlaneShape { ///< the xy plane as far as one can see, normal +z; uv = xy, so textures repeat
+struct PlaneShape { ///< the unbounded xy plane, normal +z; uv = xy, so textures repeat
   bool operator==(const PlaneShape&) const = default;
 };
 struct CubeShape { ///< [-1, 1]^3, as in Mitsuba
@@ -75,7 +75,7 @@ struct TorusShape { ///< a tube about the circle of `radius` in the xy plane; mi
 using Shape = std::variant<std::shared_ptr<const Mesh>, SphereShape, RectangleShape, DiscShape, PlaneShape,
                            CubeShape, CylinderShape, ConeShape, TorusShape>;
 
-/// A shape somewhere in the scene. Several instances may share one mesh.
+/// A placed shape. Several instances may share one mesh.
 struct Instance {
   std::string name;
   Shape shape;
@@ -84,7 +84,7 @@ struct Instance {
   bool operator==(const Instance&) const = default;
 };
 
-/// A view to come back to.
+/// A named view.
 struct Bookmark {
   std::string name;
   Camera camera;
@@ -92,7 +92,7 @@ struct Bookmark {
 };
 
 struct SceneDesc {
-  std::string description; ///< for people: what there is to see, what to try
+  std::string description; ///< free text for users
   Camera camera;
   std::vector<Bookmark> bookmarks;
   std::vector<Material> materials;
@@ -102,23 +102,24 @@ struct SceneDesc {
   bool operator==(const SceneDesc&) const = default; ///< meshes and pictures by identity
 };
 
-/// In the shape's own space; of planes the unit square's.
+/// Bounds in the shape's own space; for planes those of the unit square.
 Bounds3 shape_bounds(const Shape& shape);
 
-/// Bounds in world space of all shapes but planes (of their boxes' corners: an upper bound); of planes' unit
-/// squares where there is nothing else. Within kMaxCoordinate.
+/// World-space bounds of all shapes except planes (from the corners of their boxes, an upper bound); if there
+/// are only planes, of their unit squares. Within kMaxCoordinate.
 Bounds3 instance_bounds(const std::vector<Instance>& instances);
 
-/// What files call the kinds of shapes, by the index of the variant: "mesh", "sphere" …
+/// Names of the kinds of shapes in files, by the index of the variant: "mesh", "sphere" …
 std::span<const std::string_view> shape_names();
 std::string_view shape_name(const Shape& shape);
-/// The default shape of a name other than mesh; nothing for any other.
+/// The default shape of a name, except "mesh"; nothing for unknown names.
 std::optional<Shape> shape_of_name(std::string_view name);
 /// Rows of the values of a shape's kind; their addresses are those in a Shape that holds this kind.
 std::span<const Field<Shape>> shape_fields(const Shape& shape);
-/// What the rows cannot say: "minor_radius: …"; empty where all is well.
+/// A problem that the rows cannot express: "minor_radius: …"; empty if the shape is valid.
 std::string shape_problem(const Shape& shape);
-/// The row with limits that leave no shape_problem, as the shape's other values are: for hands that edit it.
+/// The row with its limits narrowed such that the shape stays valid with its other values; for interactive
+/// edits.
 FieldInfo shape_limits(const Shape& shape, const Field<Shape>& row);
 
 } // namespace candela

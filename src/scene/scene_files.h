@@ -1,5 +1,5 @@
 #pragma once
-// Which files a scene's values came from.
+// The files of a scene's values.
 
 #include "scene/scene_desc.h"
 
@@ -8,8 +8,8 @@
 
 namespace candela {
 
-/// The files of its meshes, textures and panoramas, all faces of a cube included: what a scene file that
-/// holds it names. Who has read a scene knows more, see LoadedScene::files.
+/// The files of its meshes, textures and panoramas, including all faces of a cube: those that a scene file
+/// would name. After reading a scene, LoadedScene::files has more.
 std::set<std::string> source_files(const SceneDesc& scene);
 
 } // namespace candela

@@ -44,11 +44,11 @@ constexpr auto kImage = Invalidates::image;
 
 #define AT(member) [](Document& d) -> void* { return &d.member; }
 
-/// All but the override, whose rows follow from the materials'.
+/// All rows except those of the override, which are derived from the materials' rows.
 const Field<Document> kRows[] = {
     {{"sampler.type", FieldType::choice, 0, 0, "", "Where the random numbers come from", kImage, kSamplers},
      AT(settings.sampler.type)},
-    {{"sampler.seed", FieldType::integer, 0, 2147483647, "", "Another seed, another noise of the same image"},
+    {{"sampler.seed", FieldType::integer, 0, 2147483647, "", "Different seeds give independent noise"},
      AT(settings.sampler.seed)},
     {{"sampler.strata", FieldType::integer, 1, 64, "", "Strata a side of the stratified sampler"},
      AT(settings.sampler.strata)},
@@ -68,16 +68,15 @@ const Field<Document> kRows[] = {
     {{"path.light_samples", FieldType::integer, 1, 64, "", "Shadow rays at every vertex, for nee and mis"},
      AT(settings.path.light_samples)},
     {{"path.light_choice", FieldType::choice, 0, 0, "",
-      "How one of several lights is sampled: by power, or by what it may contribute to the point",
+      "How one of several lights is sampled: by power, or by its estimated contribution to the point",
       Invalidates::scene, kLightChoices},
      AT(settings.path.light_choice)},
     {{"path.direction_sampling", FieldType::choice, 0, 0, "",
       "Density of the next direction: uniform, by the cosine, or by the material", kImage, kDirections},
      AT(settings.path.direction_sampling)},
     {{"path.max_depth", FieldType::integer, -1, 1000000, "segments",
-      "Longest path: 1 shows lights alone, 2 direct light, -1 has no limit (a limit loses light), but for "
-      "1024 with "
-      "path.rr = off"},
+      "Longest path: 1 shows only emitters, 2 also direct light; -1: no limit, except 1024 with path.rr = "
+      "off (a limit loses light)"},
      AT(settings.path.max_depth)},
     {{"path.rr", FieldType::choice, 0, 0, "",
       "Russian roulette: off, by the path's throughput, or with a fixed probability; from 64 segments on a "
@@ -94,11 +93,11 @@ const Field<Document> kRows[] = {
     {{"path.component", FieldType::choice, 0, 0, "", "Which part of the light is shown", kImage, kComponents},
      AT(settings.path.component)},
     {{"path.only_depth", FieldType::integer, 0, 1000000, "segments",
-      "Shows the light of paths of this length alone (1: emitters seen, 2: direct, 3: one bounce); 0: all"},
+      "Shows only the light of paths of this length (1: emitters, 2: direct light, 3: one bounce); 0: all"},
      AT(settings.path.only_depth)},
     {{"path.split", FieldType::integer, 1, 64, "paths",
-      "Paths that go on from the first surface that is not specular, each with its share of the weight; "
-      "a pixel's first sample is not split, so that it comes soon"},
+      "Number of paths that continue from the first surface that is not specular, each with its share of the "
+      "weight; a pixel's first sample is not split, for an early picture"},
      AT(settings.path.split)},
     {{"path.clamp",
       FieldType::real,
@@ -126,7 +125,7 @@ const Field<Document> kRows[] = {
       0,
       1,
       "",
-      "Blocks of pixels stop at this relative error; 0: all get every sample (stopping by luck biases)",
+      "Blocks of pixels stop at this relative error; 0: all get every sample (early stopping is biased)",
       kImage,
       {},
       true},
@@ -141,16 +140,15 @@ const Field<Document> kRows[] = {
     {{"film.filter", FieldType::choice, 0, 0, "", "Pixel filter, sampled by importance", kImage, kFilters},
      AT(settings.film.filter)},
     {{"film.filter_radius", FieldType::real, 0.01, 8, "pixels",
-      "Half the filter's full width: a box tiles the film at 0.5, a tent interpolates at 1, the gaussian's "
-      "sigma is "
-      "a third of it (1.5 is usual), blackman_harris wants 1.5 to 2, mitchell's cubic is its own at 2"},
+      "Half the filter's full width: a box tiles the film at 0.5, a tent interpolates at 1; usual are "
+      "1.5 for gaussian (sigma is a third of it), 1.5 to 2 for blackman_harris and 2 for mitchell"},
      AT(settings.film.filter_radius)},
     {{"view", FieldType::choice, 0, 0, "",
-      "What a pixel shows: radiance, a property of the first surface, or what the render knows of itself",
-      kImage, kViews},
+      "What a pixel shows: radiance, a property of the first surface, or a statistic of the render", kImage,
+      kViews},
      AT(settings.view)},
 
-    {{"camera.position", FieldType::point, -kInf, kInf, "", "Where the camera is"},
+    {{"camera.position", FieldType::point, -kInf, kInf, "", "Position of the camera"},
      AT(scene.camera.position)},
     {{"camera.target", FieldType::point, -kInf, kInf, "", "The point it looks at"}, AT(scene.camera.target)},
     {{"camera.up", FieldType::point, -kInf, kInf, "", "The direction that is up in the image"},
@@ -171,7 +169,7 @@ const Field<Document> kRows[] = {
       true},
      AT(scene.camera.orthographic_height)},
     {{"camera.aspect", FieldType::real, 0, 100, "",
-      "Width over height of the view, however many pixels it has; 0: square pixels"},
+      "Width over height of the view, independent of its pixels; 0: square pixels"},
      AT(scene.camera.aspect)},
     {{"camera.aperture_radius",
       FieldType::real,
@@ -224,7 +222,7 @@ const Field<Document> kRows[] = {
       Invalidates::display},
      AT(settings.display.exposure)},
     {{"display.auto_exposure", FieldType::boolean, 0, 0, "",
-      "The exposure is found from the picture; display.exposure is added", Invalidates::display},
+      "Finds the exposure from the picture; display.exposure is added", Invalidates::display},
      AT(settings.display.auto_exposure)},
     {{"display.white_point",
       FieldType::real,
@@ -237,8 +235,8 @@ const Field<Document> kRows[] = {
       true},
      AT(settings.display.white_point)},
     {{"display.false_color", FieldType::choice, 0, 0, "",
-      "Luminance in colours: for the views that are one number (auto), never, or always",
-      Invalidates::display, kFalseColors},
+      "False colours of the luminance: for scalar views (auto), never, or always", Invalidates::display,
+      kFalseColors},
      AT(settings.display.false_color)},
     {{"display.false_color_min", FieldType::real, -1e9, 1e9, "",
       "Value where the false colours begin, in the view's unit; both ends 0: found from the picture",
@@ -249,11 +247,11 @@ const Field<Document> kRows[] = {
       Invalidates::display},
      AT(settings.display.false_color_max)},
     {{"display.denoise", FieldType::boolean, 0, 0, "",
-      "Shows and writes the picture denoised, under that name (denoising biases)", Invalidates::display},
+      "Shows and writes the denoised picture, labelled as such (denoising is biased)", Invalidates::display},
      AT(settings.display.denoise)},
     {{"display.dither", FieldType::boolean, 0, 0, "",
-      "Spreads the rounding to 8 bits over the pixels, so that gradients have no bands; the same bits every "
-      "time, at most one step from the rounded ones. Not for views that are data, nor for EXR, HDR and PFM",
+      "Dithers the rounding to 8 bits, so that gradients have no bands; deterministic, at most one step from "
+      "the rounded values. Not for views that are data, nor for EXR, HDR and PFM",
       Invalidates::display},
      AT(settings.display.dither)},
 };
@@ -270,7 +268,7 @@ std::vector<Field<Document>> override_rows() {
       {{"override.brdf", FieldType::choice, 0, 0, "", "Renders every surface as this one material", kImage,
         override_names()},
        [](Document& d) -> void* { return &d.settings.override_brdf.brdf; }}};
-  static std::deque<std::string> texts; // what the rows' views look at
+  static std::deque<std::string> texts; // storage of the rows' string views
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     for (auto address : {override_value<I>...}) {
       FieldInfo row = material_choice_fields()[out.size() - 1];
@@ -305,7 +303,7 @@ const Field<Document>* find_setting(std::string_view key) {
 }
 
 OverrideSettings::OverrideSettings() {
-  // Black would say little of a gloss or a metal.
+  // A visible colour: black would hide the shape of glossy lobes and metals.
   constexpr float kShown = 0.9f;
   for (const auto& row : material_choice_fields())
     if (row.key == "specular") *static_cast<vec3*>(row.address(values)) = vec3(kShown);

@@ -10,8 +10,8 @@ namespace candela {
 
 namespace {
 
-/// Rendering (10) comes first, but a picture that waited for an idle machine would come too late to be of
-/// use: this is some 40 % of a core beside a busy render thread.
+/// Lower priority than rendering (10), but not idle priority, which would delay the picture too long: next to
+/// busy render threads it gets about 40 % of a core.
 constexpr int kNiceness = 12;
 
 } // namespace
@@ -48,7 +48,7 @@ void DenoiseThread::run() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness); // its OpenMP workers inherit it
   FeatureFilm features;
   std::uint64_t features_of = 0;                      // accumulation
-  BuildQuality features_quality = BuildQuality::high; // of its geometry, which changes what is rounded how
+  BuildQuality features_quality = BuildQuality::high; // of its geometry, which affects rounding
   for (;;) {
     std::unique_ptr<DenoiseJob> job;
     {
@@ -69,7 +69,7 @@ void DenoiseThread::run() {
       auto image = denoise_render(std::move(job->color), job->spp, *job->scene, *job->document, features,
                                   {threads_, &stop_});
       if (!image) {
-        features_of = 0; // they may be incomplete
+        features_of = 0; // the features may be incomplete
         continue;
       }
       auto made = std::make_shared<DenoisedImage>();
@@ -80,11 +80,11 @@ void DenoiseThread::run() {
       made->height = height;
       made->linear = std::move(image->pixels);
       done_(std::move(made));
-    } catch (const std::bad_alloc&) { // the noisy picture stays, which is what there is memory for
+    } catch (const std::bad_alloc&) { // the noisy picture stays
       features = FeatureFilm();
       features_of = 0;
       failed_("not denoised: out of memory");
-    } catch (const Error& e) { // Open Image Denoise's
+    } catch (const Error& e) { // from Open Image Denoise
       failed_(e.what());
     }
   }

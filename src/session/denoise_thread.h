@@ -1,5 +1,5 @@
 #pragma once
-// Denoises snapshots of an accumulation, on a thread of its own beside the render.
+// Denoises snapshots of an accumulation on a thread of its own.
 
 #include "render/denoise/denoise_film.h"
 
@@ -12,10 +12,10 @@
 
 namespace candela {
 
-/// What is known of an accumulation, to be denoised.
+/// A snapshot of an accumulation for the denoiser.
 struct DenoiseJob {
   std::uint64_t accumulation = 0; ///< Frame::generation of its frames
-  std::uint64_t samples = 0;      ///< camera paths that are in it
+  std::uint64_t samples = 0;      ///< camera paths in it
   int spp = 0;
   NoisyImage color;
   std::shared_ptr<const RenderScene> scene;
@@ -35,18 +35,17 @@ public:
   using Done = std::function<void(std::shared_ptr<const DenoisedImage>)>;
   using Failed = std::function<void(std::string why)>;
 
-  /// Called from the thread: `done` with every image that was not cancelled, `failed` where there will be
-  /// none.
+  /// Called from the thread: `done` with every image that was not cancelled, `failed` if there is none.
   DenoiseThread(int threads, Done done, Failed failed);
   ~DenoiseThread(); ///< cancels and joins
   DenoiseThread(const DenoiseThread&) = delete;
   DenoiseThread& operator=(const DenoiseThread&) = delete;
 
-  /// Hands in a job; it replaces one that was not begun. The one in work continues, so that there is
-  /// something to see while samples come in faster than they can be denoised. Returns the one that was
-  /// replaced, so that its memory need not be freed under a lock.
+  /// Submits a job, which replaces one that was not begun. The one in work continues, so that pictures appear
+  /// even if samples arrive faster than they can be denoised. Returns the replaced job, so that its memory
+  /// need not be freed under a lock.
   std::unique_ptr<DenoiseJob> post(std::unique_ptr<DenoiseJob> job);
-  /// Drops the job in work and the one that waits, which is returned.
+  /// Drops the job in work and the waiting one, which is returned.
   std::unique_ptr<DenoiseJob> cancel();
 
 private:

@@ -9,15 +9,15 @@ namespace candela {
 
 /// Ready for glTexImage2D as RGBA8.
 struct DisplayImage {
-  std::shared_ptr<const Frame> frame;            ///< what it was made from ...
+  std::shared_ptr<const Frame> frame;            ///< its source ...
   std::shared_ptr<const DenoisedImage> denoised; ///< ... or this one of the same accumulation, if not null
-  DisplaySettings display;                       ///< and how
-  DisplayTransform transform;                    ///< what they came to for this frame
+  DisplaySettings display;                       ///< the settings it was made with
+  DisplayTransform transform;                    ///< their transform for this frame
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgba; ///< row 0 is the top
 
-  /// What was tone-mapped.
+  /// The image that was tone-mapped.
   const std::vector<vec3>& linear() const { return denoised ? denoised->linear : frame->linear; }
 };
 

@@ -9,7 +9,7 @@ namespace candela {
 
 namespace {
 
-/// Below the renderer's.
+/// Priority of the geometry thread, below the renderer's.
 constexpr int kNiceness = 15;
 /// Seconds after the last edit of geometry before better geometry is built: each step of a drag would discard
 /// it.
@@ -69,7 +69,7 @@ void GeometryCache::adopt(Locked) {
     thread_.cancel();
 }
 
-/// Keeps what has been built of meshes that are still there.
+/// Drops the objects of meshes that are no longer used.
 void GeometryCache::keep_objects(const Geometry& geometry, const std::vector<Instance>& instances) {
   std::set<const Mesh*> wanted = meshes_of(instances);
   std::erase_if(objects_, [&](const auto& object) { return wanted.erase(object->mesh.get()) == 0; });

@@ -1,6 +1,6 @@
 #pragma once
-// Geometry that outlives edits: built fast while the user moves objects, built well beside the rendering, and
-// exchanged when that is done.
+// Geometry that is reused across edits: built fast while the user moves objects, and replaced by high-quality
+// geometry that is built in the background.
 
 #include "session/geometry_thread.h"
 #include "session/session_monitor.h"
@@ -23,30 +23,31 @@ public:
 
   GeometryCache(SessionMonitor& monitor, WorkerThreads& workers, OnBuild on_build);
 
-  /// Render thread: the geometry of the instances. That of `previous` (may be null) or of the geometry thread
-  /// where it is of the same, else built now: fast, if no mesh is new. Throws Cancelled.
+  /// Render thread: the geometry of the instances. Reuses that of `previous` (may be null) or of the geometry
+  /// thread if it is of the same instances; else builds it, with the fast build if no mesh is new. Throws
+  /// Cancelled.
   std::shared_ptr<const Geometry> geometry_for(const std::vector<Instance>& instances,
                                                const RenderScene* previous, Progress& progress);
-  /// Render thread: what geometry_for() gave last is in use. Begins to improve it if it is fast.
+  /// Render thread: the last result of geometry_for() is in use. If its build was fast, begins to improve it.
   void adopt(Locked);
 
-  /// Better geometry is still to come.
+  /// Whether better geometry is expected.
   bool improving(Locked) const;
-  /// It is there.
+  /// Whether better geometry is available.
   bool has_improvement(Locked) const { return improvement_.has_value(); }
-  /// Render thread: better geometry of the instances in use; null where there is none after all.
+  /// Render thread: better geometry of the instances in use; null if there is none.
   std::shared_ptr<const Geometry> take_improvement(Locked);
   void adopt_improvement(Locked, std::shared_ptr<const Geometry> geometry) {
     in_use_.geometry = std::move(geometry);
   }
 
-  /// Objects may be moved soon: makes every mesh ready for it.
+  /// Objects may be moved soon: prepares every mesh for it.
   void prepare_moves(Locked);
 
 private:
   struct Built {
     std::shared_ptr<const std::vector<Instance>> instances; ///< null: nothing
-    std::shared_ptr<const Geometry> geometry;               ///< null: memory does not suffice for it
+    std::shared_ptr<const Geometry> geometry;               ///< null: not enough memory
 
     bool is_of(const std::vector<Instance>& other) const { return instances && *instances == other; }
   };
@@ -56,14 +57,14 @@ private:
 
   SessionMonitor& monitor_;
   OnBuild on_build_;
-  Built in_use_;                     ///< written by the render thread alone
-  Geometry::Objects objects_;        ///< of the meshes in use, as far as they ever were needed
+  Built in_use_;                     ///< written by the render thread only
+  Geometry::Objects objects_;        ///< of the meshes in use, as far as built
   std::optional<Built> improvement_; ///< made by the geometry thread, not in use yet
-  bool stays_fast_ = false;          ///< memory does not suffice for better geometry
-  /// The render thread's: what geometry_for() gave last. Not in use where the rest of its scene was
+  bool stays_fast_ = false;          ///< not enough memory for better geometry
+  /// Used by the render thread: the last result of geometry_for(). Not in use if building its scene was
   /// cancelled.
   Built candidate_;
-  GeometryThread thread_; // last: it uses the rest
+  GeometryThread thread_; // last: it uses the other members
 };
 
 } // namespace candela

@@ -60,7 +60,7 @@ void GeometryThread::loop() {
     try {
       made = Geometry::build(*job.instances, job.quality, progress.get(), job.known);
     } catch (const Cancelled&) { cancelled = true; } catch (const std::bad_alloc&) {
-    } // what is there stays
+    } // existing geometry stays
     {
       std::lock_guard lock(mutex_);
       working_.reset();

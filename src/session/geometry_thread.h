@@ -1,6 +1,6 @@
 #pragma once
-// A thread that builds geometry beside the renderer: it builds well what was built fast while the user moved
-// it, and prepares what the user is about to move.
+// A thread that builds geometry in the background: high-quality builds of geometry that was built fast during
+// edits, and preparations for objects that the user is about to move.
 
 #include "render/world/geometry.h"
 
@@ -17,12 +17,12 @@ struct GeometryJob {
   std::shared_ptr<const std::vector<Instance>> instances;
   BuildQuality quality = BuildQuality::high;
   Geometry::Objects known;
-  double delay = 0; ///< seconds before it begins, in which a newer one replaces it at no cost
+  double delay = 0; ///< seconds before it begins, in which a newer one can replace it at no cost
 };
 
 class GeometryThread {
 public:
-  /// Called from the thread with every geometry that was not cancelled; null where memory does not suffice.
+  /// Called from the thread with every geometry that was not cancelled; null without enough memory.
   using Done = std::function<void(const GeometryJob&, std::shared_ptr<const Geometry>)>;
 
   /// `prepare` runs first, on the thread.
@@ -31,7 +31,7 @@ public:
   GeometryThread(const GeometryThread&) = delete;
   GeometryThread& operator=(const GeometryThread&) = delete;
 
-  /// Replaces the job that waits and cancels the one in work, which are out of date.
+  /// Replaces the waiting job and cancels the one in work: both are out of date.
   void post(GeometryJob job);
   void cancel();
 
@@ -44,9 +44,9 @@ private:
   std::condition_variable changed_;
   std::optional<GeometryJob> waiting_;
   Clock::time_point due_;             ///< when it begins
-  std::shared_ptr<Progress> working_; ///< null: on nothing
+  std::shared_ptr<Progress> working_; ///< null: idle
   bool quit_ = false;
-  std::jthread thread_; // last: it uses the rest
+  std::jthread thread_; // last: it uses the other members
 };
 
 } // namespace candela

@@ -1,6 +1,6 @@
 #pragma once
-// What the user wants of a session: the newest Document, pauses, steps, a region. Any thread writes it, the
-// render thread takes from it.
+// Requests to a session: the newest Document, pauses, steps, a region. Any thread writes them, the render
+// thread takes them.
 
 #include "render/film/sample_range.h"
 #include "scene/document.h"
@@ -12,17 +12,17 @@
 
 namespace candela {
 
-/// Guarded by the session's mutex, but for the flags, which a pass polls without it. Whoever changes
-/// something notifies SessionMonitor::changed afterwards.
+/// Guarded by the session's mutex, except the flags, which a pass polls without it. Callers that change
+/// something notify SessionMonitor::changed afterwards.
 class Mailbox {
 public:
   using Clock = std::chrono::steady_clock;
 
   struct Receipt {
     std::uint64_t generation = 0;
-    bool restarts = false; ///< the accumulation; the pass in flight is told to end
+    bool restarts = false; ///< whether it restarts the accumulation; then the current pass is told to end
   };
-  /// Replaces a Document that was not taken yet: the latest wins.
+  /// Replaces a Document that was not taken yet.
   Receipt submit(Locked, Document document);
   /// The last one submitted; an empty one before the first.
   const Document& newest(Locked) const { return newest_; }
@@ -30,39 +30,40 @@ public:
   std::uint64_t restarting(Locked) const { return restarting_; } ///< newest that restarts the accumulation
 
   void pause(Locked, bool paused);
-  void step(Locked); ///< one more sample a pixel, and a pause
+  void step(Locked); ///< one more sample a pixel, then a pause
   void set_region(Locked, const CropWindow& region);
-  void close(Locked); ///< the session ends: tells a pass in flight
+  void close(Locked); ///< the session ends: tells the current pass to end
 
   struct Delivery {
     Document document;
-    Invalidates consequence = Invalidates::nothing; ///< the heaviest of all Documents since the last delivery
+    Invalidates consequence =
+        Invalidates::nothing; ///< the strongest of all Documents since the last delivery
     std::uint64_t generation = 0;
     Clock::time_point submitted_at; ///< of the last one that restarts
   };
   bool has_document(Locked) const { return pending_.has_value(); }
-  /// A Document waits that makes the accumulation out of date.
+  /// Whether a waiting Document restarts the accumulation.
   bool has_restart(Locked) const { return pending_ && consequence_ >= Invalidates::image; }
   std::optional<Delivery> take(Locked);
 
   bool has_region(Locked) const { return region_changed_; }
   std::optional<CropWindow> take_region(Locked);
 
-  /// While paused, only steps are taken, and the first pass of an edit.
+  /// While paused, only steps and the first pass of an edit are rendered.
   bool may_render(Locked, bool first_pass_done) const {
     return !paused_ || steps_wanted_ > 0 || !first_pass_done;
   }
   bool paused(Locked) const { return paused_; }
   bool has_step(Locked) const { return paused_ && steps_wanted_ > 0; }
-  bool take_step(Locked); ///< false: none is wanted
-  /// From now on, whoever wants the pass to wait sets hold() again, and waits for what has begun.
+  bool take_step(Locked); ///< false: none was requested
+  /// Clears hold() before a pass: requests from then on set it again, and wait for the pass.
   void begin_pass(Locked) { hold_ = false; }
   bool closed(Locked) const { return closing_; }
 
-  // What the pass in flight polls.
-  /// It shows an old Document.
+  // Polled by the current pass.
+  /// The pass renders an old Document: it is to end.
   const std::atomic<bool>& outdated() const { return outdated_; }
-  /// It is to wait; it is continued later.
+  /// The pass is to be interrupted; it is continued later.
   const std::atomic<bool>& hold() const { return hold_; }
   const std::atomic<bool>& closing() const { return closing_; }
 

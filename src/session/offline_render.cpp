@@ -19,22 +19,23 @@ double seconds_since(Clock::time_point start) {
 
 /// Side of the coarsest blocks of a first pass that may run out of time; a power of two.
 constexpr int kCoarsest = 32;
-/// Of one pass: long enough that the synchronisation at its end costs little, short enough for progress.
+/// Seconds of one pass: long enough that synchronisation costs little, short enough for progress reports.
 constexpr double kPassSeconds = 0.2;
 
-/// Pixels without samples get the value of one that stands for a block around them, where there is one.
-/// Returns their share.
+/// Pixels without samples get the value of the pixel that represents their block, if it has one. Returns
+/// their share.
 double fill_missing(OfflineResult& result) {
   Film& film = result.film;
   const ivec2 origin = film.origin();
-  // Collected first: pixels that are filled in stand for no others.
+  // Collected first, so that filled pixels are not used to fill others.
   std::vector<std::pair<ivec2, std::optional<ivec2>>> holes;
   for (int y = 0; y < film.height(); ++y)
     for (int x = 0; x < film.width(); ++x) {
       if (film.has_samples(x, y)) continue;
       auto& hole = holes.emplace_back(ivec2(x, y), std::nullopt);
       for (int side = 2; side <= kCoarsest && !hole.second; side *= 2) {
-        const ivec2 at = origin + ivec2(x, y), other = at - at % side - origin; // the grid is the frame's
+        const ivec2 at = origin + ivec2(x, y),
+                    other = at - at % side - origin; // blocks are aligned to the frame
         if (other.x >= 0 && other.y >= 0 && film.count(other.x, other.y) > 0) hole.second = other;
       }
     }
@@ -52,7 +53,7 @@ double fill_missing(OfflineResult& result) {
 OfflineResult render_document(const Document& document, const OfflineOptions& options) {
   const StopSettings& until = document.settings.stop;
   if (until.spp <= 0 && until.time <= 0 && until.noise <= 0 && document.settings.adaptive.error <= 0)
-    throw usage_error("stop", "there is nothing to stop at",
+    throw usage_error("stop", "there is no stopping criterion",
                       "give stop.spp (--spp), stop.time (--time) or stop.noise (--noise)");
   static const std::atomic<bool> kNeverStop{false};
   const std::atomic<bool>& stop = options.stop ? *options.stop : kNeverStop;

@@ -1,5 +1,5 @@
 #pragma once
-// A render from start to finish, as the command line does it: the window's accumulation, in larger passes.
+// A render to completion, as by the command line: the same accumulation as in the window, in larger passes.
 
 #include "render/film/render_pass.h"
 
@@ -18,16 +18,16 @@ struct OfflineProgress {
 
 struct OfflineOptions {
   PassOptions pass;
-  bool components = false; ///< keep the emitted, direct and indirect parts apart, too
-  /// Ends early: Cancelled is thrown while the scene is built, after that the film keeps what it has.
+  bool components = false; ///< also store the emitted, direct and indirect components separately
+  /// Ends the render early: throws Cancelled while the scene is built; later the film keeps its samples.
   const std::atomic<bool>* stop = nullptr;
-  std::function<void(const OfflineProgress&)> progress; ///< called after each portion
+  std::function<void(const OfflineProgress&)> progress; ///< called after each pass
 };
 
 struct OfflineResult {
-  std::shared_ptr<const RenderScene> scene; ///< what was rendered
-  Film film;                                ///< of the crop window alone, where there is one
-  std::array<Film, 3> components;           ///< emitted, direct, indirect, where asked for
+  std::shared_ptr<const RenderScene> scene; ///< the rendered scene
+  Film film;                                ///< of the crop window only, if there is one
+  std::array<Film, 3> components;           ///< emitted, direct, indirect, if requested
   int spp = 0;                              ///< complete passes
   double build_seconds = 0;
   double render_seconds = 0;
@@ -38,15 +38,15 @@ struct OfflineResult {
   bool converged = false; ///< adaptive sampling stopped everywhere
   std::size_t scene_bytes = 0;
   bool interrupted = false; ///< by `stop`
-  /// Share of the pixels to be rendered that got no sample, for the render ended within the first pass: where
-  /// a pixel of a coarser grid has been rendered, the film holds its value instead.
+  /// Share of the pixels without samples, if the render ended within the first pass. The film holds the value
+  /// of a pixel of a coarser grid instead, if that has been rendered.
   double missing = 0;
 };
 
 /// Renders until the document's stop.spp, stop.time or stop.noise, whichever comes first, or until adaptive
-/// sampling has stopped everywhere. The time is obeyed within passes, too, so the last one may bring some
-/// pixels a sample more than others; the first pass goes from a coarse grid of pixels to finer ones, so that
-/// there is a whole picture early. Throws a usage error where the document has none of them.
+/// sampling has stopped everywhere. The time limit also applies within passes, so some pixels may get one
+/// more sample than others. The first pass goes from a coarse grid of pixels to finer ones, so that there is
+/// a complete picture early. Throws a usage error if the document has no criterion.
 OfflineResult render_document(const Document& document, const OfflineOptions& options = {});
 
 struct ViewPicture {
@@ -54,8 +54,8 @@ struct ViewPicture {
   float display_scale = 1;
 };
 
-/// Another view of a rendered document, by as many samples as the render had: from the film where that holds
-/// them, by passes of their own otherwise.
+/// Another view of a rendered document, with the same number of samples: from the film if it holds the view,
+/// otherwise by additional passes.
 ViewPicture render_view(const Document& document, const OfflineResult& rendered, View view,
                         const OfflineOptions& options = {});
 

@@ -8,14 +8,14 @@ namespace candela {
 
 namespace {
 
-/// Copying snapshots must not take more of the render thread than this share.
+/// Largest share of the render thread's time for copying snapshots.
 constexpr double kPublishShare = 0.05;
 
 double seconds_between(Presenter::Clock::time_point a, Presenter::Clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
 }
 
-/// display_rgba8() of a picture that is made of blocks, which costs less than one that is not.
+/// display_rgba8() of a picture of constant blocks, at a lower cost.
 void tone_map_blocks(std::span<const vec3> linear, int width, int block, const DisplayTransform& transform,
                      std::span<std::uint8_t> rgba) {
   if (block == 1) {
@@ -128,7 +128,7 @@ std::unique_ptr<DenoiseJob> Presenter::denoise(Locked, std::unique_ptr<DenoiseJo
   return denoiser_.post(std::move(job));
 }
 
-/// On the denoiser's thread.
+/// Called on the denoiser's thread.
 void Presenter::receive(std::shared_ptr<const DenoisedImage> made) {
   {
     const auto lock = monitor_.lock();
@@ -147,7 +147,7 @@ void Presenter::receive_error(std::string why) {
   if (on_publish_) on_publish_();
 }
 
-/// The denoised image that belongs to the newest frame, if it is to be shown. The mutex must be held.
+/// The newest frame's denoised image, if it is to be shown. The mutex must be held.
 std::shared_ptr<const DenoisedImage> Presenter::denoised_to_show() const {
   const bool fits = frame_ && denoises(*frame_) && denoised_ && denoised_->accumulation == frame_->generation;
   return fits ? denoised_ : nullptr;

@@ -9,22 +9,22 @@ namespace candela {
 
 namespace {
 
-/// Rendering takes what the window leaves over.
+/// Low priority: rendering must not delay the window.
 constexpr int kNiceness = 10;
-/// The first picture after an edit is finished although a newer edit waits, so that there are pictures while
-/// one drags; but only so long.
+/// Longest time for which the first picture after an edit is completed although a newer edit waits, so that
+/// pictures appear during drags.
 constexpr std::chrono::milliseconds kFirstPicturePatience{100};
-/// Of a pass: long enough that its synchronisation costs little, short enough to publish often.
+/// Seconds of a pass: long enough that its synchronisation costs little, short enough to publish often.
 constexpr double kPassSeconds = 0.02;
-/// Side of the coarsest blocks while no sample has been timed.
+/// Side of the coarsest blocks before any sample has been timed.
 constexpr int kUsualLattice = 8;
 
 } // namespace
 
 int coarsest_lattice(double pixels, double seconds_per_sample) {
   if (seconds_per_sample <= 0) return kUsualLattice;
-  // The finest level that is there soon enough; the finer one may take less time, not more. A whole picture
-  // that is there before the next frame needs no coarser one, which would hold its place for a frame.
+  // The finest level that is rendered soon enough. If the complete picture is ready before the next frame, no
+  // coarser one is needed, which would be shown for a frame.
   constexpr std::pair<int, double> kWorth[] = {{1, 12e-3},  {4, 6e-3},   {8, 12e-3},
                                                {16, 30e-3}, {32, 60e-3}, {64, 80e-3}};
   for (auto [lattice, seconds] : kWorth)
@@ -47,14 +47,14 @@ void RenderLoop::set_turns(Locked, Turns turns) {
   turns_ = std::move(turns);
 }
 
-/// Something in the mailbox, better geometry, or samples to add.
+/// Whether there is work: a request, better geometry, or samples to add.
 bool RenderLoop::has_work(Locked lock) const {
   return mailbox_.has_document(lock) || mailbox_.has_region(lock) || may_improve(lock) ||
          (active_ &&
           (mailbox_.may_render(lock, accumulation_.spp() > 0) || status_.phase != SessionPhase::paused));
 }
 
-/// Better geometry is there, and using it delays nothing that the user waits for.
+/// Whether better geometry is available and using it would not delay a picture that the user waits for.
 bool RenderLoop::may_improve(Locked lock) const {
   return scenes_.geometry().has_improvement(lock) && !mailbox_.paused(lock) && accumulation_.spp() > 0;
 }
@@ -65,7 +65,7 @@ void RenderLoop::run() {
       auto lock = monitor_.lock();
       auto wakes = [&] { return mailbox_.closed(lock) || has_work(lock); };
       if (turns_.turns && (mailbox_.closed(lock) || !wakes()))
-        turns_.turns->leave(turns_.variant); // the others do not wait for it
+        turns_.turns->leave(turns_.variant); // the others must not wait for it
       monitor_.changed.wait(lock, wakes);
       if (mailbox_.closed(lock)) return;
     }
@@ -73,7 +73,7 @@ void RenderLoop::run() {
     bool worked = false;
     try {
       worked = work();
-    } catch (const Cancelled&) { // building: a newer Document waits, or the end
+    } catch (const Cancelled&) { // building was cancelled by a newer Document, or by the end
       const auto lock = monitor_.lock();
       ++status_.builds_cancelled;
       continue;
@@ -83,11 +83,11 @@ void RenderLoop::run() {
     monitor_.changed.notify_all();
     const bool rests =
         !active_ || (status_.phase == SessionPhase::paused && (worked || status_.phase != before));
-    if (rests && on_publish_) on_publish_(); // the phase is news, too
+    if (rests && on_publish_) on_publish_(); // a change of phase is published, too
   }
 }
 
-/// One turn of the loop; whether a pass was rendered.
+/// One iteration of the loop; returns whether a pass was rendered.
 bool RenderLoop::work() {
   if (!take_document()) improve();
   apply_region();
@@ -99,9 +99,9 @@ bool RenderLoop::work() {
   if (worked) take_turn();
   const bool other_view = accumulation_.spp() > 0 && !presenter_.is_of_view(current_.settings.view);
   active_ = !finished();
-  const bool settled = !active_ || !may_render(); // evaluated once: phase and picture must agree about it
+  const bool settled = !active_ || !may_render(); // evaluated once, so that phase and picture agree
   if (settled || other_view) presenter_.show_anyway();
-  if (other_view) publish(true); // of the same samples
+  if (other_view) publish(true); // from the same samples
   if (settled && !presenter_.is_current(accumulation_.rays().samples)) publish(true);
   feed_denoiser(settled);
   const auto lock = monitor_.lock();
@@ -119,7 +119,7 @@ void RenderLoop::fail(std::string error) {
   active_ = false;
 }
 
-/// Makes the newest Document the current one, restarting what it must.
+/// Makes the newest Document the current one, and restarts what it affects.
 bool RenderLoop::take_document() {
   bool restarts = false;
   {
@@ -146,7 +146,7 @@ bool RenderLoop::take_document() {
 }
 
 void RenderLoop::restart() {
-  struct End { // also when it is cancelled or fails
+  struct End { // also after cancellation and errors
     RenderLoop& loop;
     ~End() {
       const auto lock = loop.monitor_.lock();
@@ -168,8 +168,8 @@ void RenderLoop::restart() {
              .whole_first_pass = true});
 }
 
-/// Continues with better geometry of the same instances. The picture that is shown stays until there is one
-/// of as many samples.
+/// Continues with better geometry of the same instances. The current picture stays until the new one has as
+/// many samples.
 void RenderLoop::improve() {
   {
     const auto lock = monitor_.lock();
@@ -202,7 +202,7 @@ bool RenderLoop::may_render() const {
   return mailbox_.may_render(lock, accumulation_.spp() > 0);
 }
 
-/// Whether there still is to be a pass.
+/// Whether another pass is to be rendered.
 bool RenderLoop::begin_pass() {
   const auto lock = monitor_.lock();
   if (!mailbox_.may_render(lock, accumulation_.spp() > 0)) return false;
@@ -211,14 +211,15 @@ bool RenderLoop::begin_pass() {
   return true;
 }
 
-/// Renders a pass when it is this session's turn.
+/// Renders a pass, in this session's turn.
 void RenderLoop::take_turn() {
   Turns with;
   {
     const auto lock = monitor_.lock();
     with = turns_;
   }
-  // The user waits for the coarsest image: it yields to no other session and to no newer edit.
+  // The user waits for the coarsest image: it waits for no other session and is not interrupted by newer
+  // edits.
   const bool urgent = accumulation_.at_coarsest() && urgent_;
   if (!with.turns) {
     render(0, urgent);
@@ -228,7 +229,7 @@ void RenderLoop::take_turn() {
       with.turns->begin(with.variant, {accumulation_.samples_per_pixel(), accumulation_.seconds()},
                         urgent ? mailbox_.closing() : mailbox_.outdated());
   if (!turn.granted) return;
-  struct End { // also when memory runs out
+  struct End { // also if memory runs out
     const Turns& with;
     ~End() { with.turns->end(with.variant); }
   } end{with};
@@ -243,8 +244,8 @@ void RenderLoop::render(int most_samples, bool urgent) {
     render_pass(most_samples, false);
 }
 
-/// When the pass is to end early. One that is held is continued later; those of many samples are short, and
-/// left in their middle they would put pixels far ahead of others.
+/// When the pass is to end early. A held pass is continued later. Passes of many samples are short and not
+/// interrupted, which would leave pixels with very different sample counts.
 StopCondition RenderLoop::stop_condition(const Accumulation::Pass& pass, bool urgent) const {
   StopCondition condition(mailbox_.closing());
   if (urgent) return condition.when(mailbox_.outdated(), Mailbox::Clock::now() + kFirstPicturePatience);
@@ -270,7 +271,7 @@ void RenderLoop::render_pass(int most_samples, bool urgent) {
   if (!step.completed) return;
   if (!pass.first)
     publish(false);
-  else if (urgent || !mailbox_.outdated()) // else a newer edit waits
+  else if (urgent || !mailbox_.outdated()) // otherwise a newer edit waits
     publish(true);
 }
 
@@ -292,7 +293,8 @@ void RenderLoop::feed_denoiser(bool settled) {
   auto job = presenter_.denoise_job(source(), settled);
   if (!job) return;
   const auto lock = monitor_.lock();
-  if (!mailbox_.has_restart(lock)) job = presenter_.denoise(lock, std::move(job)); // else it is out of date
+  if (!mailbox_.has_restart(lock))
+    job = presenter_.denoise(lock, std::move(job)); // otherwise it is out of date
 }
 
 } // namespace candela

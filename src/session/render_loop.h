@@ -14,8 +14,8 @@
 
 namespace candela {
 
-/// Side of the coarsest blocks of a first pass over so many pixels, so that a picture of it is there soon; a
-/// power of two. `seconds_per_sample` of one pixel; 0: not known.
+/// Side of the coarsest blocks of a first pass over so many pixels, for an early picture; a power of two.
+/// `seconds_per_sample` is for one pixel; 0: not known.
 int coarsest_lattice(double pixels, double seconds_per_sample);
 
 class RenderLoop {
@@ -24,12 +24,12 @@ public:
   RenderLoop(SessionMonitor& monitor, WorkerThreads& workers, Mailbox& mailbox, SceneCache& scenes,
              Presenter& presenter, const SessionOptions& options);
 
-  /// What the render thread says of itself, without what the other parts of the session know.
+  /// The render thread's part of the status.
   const SessionStatus& status(Locked) const { return status_; }
 
-  struct Turns { ///< with other sessions; null: alone on the machine
+  struct Turns { ///< with other sessions; null: no other sessions
     std::shared_ptr<RenderTurns> turns;
-    int variant = 0; ///< which one this session is
+    int variant = 0; ///< index of this session
   };
   Turns turns(Locked) const { return turns_; }
   void set_turns(Locked, Turns turns);
@@ -66,17 +66,17 @@ private:
   // Guarded by the session's mutex.
   Turns turns_;
 
-  // The render thread's.
+  // Used by the render thread.
   Document current_;
-  SceneCache::Built built_;      ///< as SceneCache::newest()
-  std::uint64_t generation_ = 0; ///< of the Document that restarted last
+  SceneCache::Built built_;      ///< SceneCache::newest()
+  std::uint64_t generation_ = 0; ///< of the last Document that restarted
   Accumulation accumulation_;
   std::unique_ptr<PassRenderer> renderer_;
-  bool active_ = false;      ///< there is something to add samples to
+  bool active_ = false;      ///< there is an accumulation to add samples to
   bool urgent_ = true;       ///< the user waits for the first pass
-  double usual_seconds_ = 0; ///< that a sample took in the newest first picture, of any accumulation
+  double usual_seconds_ = 0; ///< per sample in the newest first picture, of any accumulation
 
-  // Last: they use the rest.
+  // Last: they use the other members.
   UrgentThread urgent_thread_;
   std::jthread thread_;
 };

@@ -44,7 +44,7 @@ RenderTurns::Turn RenderTurns::begin(int variant, const Progress& progress,
     Variant& mine = variants_[index];
     mine.progress = progress;
     mine.active = mine.waiting = true;
-    changed_.notify_all(); // one that waits for this variant may go now that it is known to be ahead
+    changed_.notify_all(); // a waiting variant may proceed if it is now level
     changed_.wait(lock, [&] { return give_up.load() || may_go(index); });
     mine.waiting = false;
     if (!give_up.load()) {
@@ -81,7 +81,7 @@ void RenderTurns::leave(int variant) {
 }
 
 void RenderTurns::wake() {
-  { std::lock_guard lock(mutex_); } // no thread is between testing give_up and waiting
+  { std::lock_guard lock(mutex_); } // ensures that no thread is between testing give_up and waiting
   changed_.notify_all();
 }
 

@@ -1,10 +1,10 @@
 #pragma once
-// The inside of RenderSession: its parts, each of which says what its threads own. Only session/ includes
-// this.
+// The implementation of RenderSession: its parts, which document the ownership of their threads. Only
+// session/ includes this.
 //
-// Threads: `renderer`'s turns Documents into samples, and the first ones of an edit on a thread of their own
-// that has not given up its priority; `scenes` has one that builds geometry well; `presenter` has one that
-// denoises and one that tone-maps.
+// Threads: `renderer` has one that renders Documents and one of normal priority for the first samples after
+// an edit; `scenes` has one for high-quality geometry; `presenter` has one that denoises and one that
+// tone-maps.
 
 #include "session/mailbox.h"
 #include "session/presenter.h"
@@ -39,7 +39,7 @@ struct RenderSession::State {
   Mailbox mailbox;
   SceneCache scenes;
   Presenter presenter;
-  RenderLoop renderer; // last: it uses the rest, and its thread ends first
+  RenderLoop renderer; // last: it uses the other members, and its thread must end first
 };
 
 } // namespace candela

@@ -1,7 +1,7 @@
 #pragma once
-// Work that the user waits for. The render thread and its OpenMP workers yield to everything else on the
-// machine, and a thread that has given up its priority may not take it back; so the first picture of an edit
-// is made by a thread, with workers of its own, that never gave it up.
+// A thread for work that the user waits for. The render thread and its OpenMP workers have low priority, and
+// a thread may not raise its priority again. So the first picture after an edit is rendered by a thread of
+// normal priority with workers of its own.
 
 #include <condition_variable>
 #include <functional>
@@ -17,7 +17,7 @@ public:
   explicit UrgentThread(std::function<void()> prepare);
   ~UrgentThread();
 
-  /// Runs the work on the thread and waits for it; what it throws is thrown here. One caller at a time.
+  /// Runs the work on the thread and waits for it; rethrows its exceptions. One caller at a time.
   void run(const std::function<void()>& work);
 
 private:
@@ -25,9 +25,9 @@ private:
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::packaged_task<void()> task_; ///< not valid: there is none
+  std::packaged_task<void()> task_; ///< not valid: none
   bool quit_ = false;
-  std::jthread thread_; // last: it uses the rest
+  std::jthread thread_; // last: it uses the other members
 };
 
 } // namespace candela

@@ -1,5 +1,5 @@
 #pragma once
-// The threads that compute: those of a session that start OpenMP regions, and the workers of each.
+// The computing threads of a session: those that start OpenMP regions, and their workers.
 
 #include <ctime>
 #include <mutex>
@@ -10,13 +10,13 @@ namespace candela {
 /// All members may be called from any thread.
 class WorkerThreads {
 public:
-  /// `threads` a region, 0: every core.
+  /// `threads` per region; 0: every core.
   explicit WorkerThreads(int threads) : threads_(threads) {}
 
   int count() const;
 
-  /// Starts the OpenMP workers of the calling thread, which the runtime keeps for it as long as the number of
-  /// threads stays. They inherit its niceness: 0 leaves it as it is.
+  /// Starts the OpenMP workers of the calling thread, which the runtime keeps while the number of threads
+  /// does not change. They inherit its niceness, which `niceness` sets unless it is 0.
   void start(int niceness);
 
   /// CPU time of the threads that called start() and of their workers, seconds.
@@ -28,9 +28,9 @@ private:
   std::vector<clockid_t> clocks_;
 };
 
-/// The CPU-time clock of the calling thread, for any thread to read.
+/// The CPU-time clock of the calling thread, which any thread can read.
 clockid_t thread_cpu_clock();
-/// What it says, seconds; 0 for a thread that has ended.
+/// Its value in seconds; 0 for a thread that has ended.
 double cpu_seconds(clockid_t clock);
 
 } // namespace candela

@@ -1,6 +1,6 @@
 #pragma once
-// What a ray may and must hit, by testing every primitive in double precision. A ray that passes within
-// rounding of a rim or an edge may hit or miss: such candidates are possible, the others certain.
+// The possible and certain hits of a ray, by testing every primitive in double precision. Within rounding of
+// an edge a ray may hit or miss: such hits are possible, others certain.
 
 #include "accel/accel.h"
 #include "core/hash.h"

@@ -1,4 +1,4 @@
-// A build that is watched and one that is given up. Its tree is nobody's business but the input's.
+// Progress and cancellation of builds. The tree depends only on the input.
 
 #include "accel/accel.h"
 #include "brute_force.h"

@@ -1,4 +1,4 @@
-// Inputs that break builders: nothing, nonsense, everything in one place, needles and giants.
+// Difficult inputs for builders: empty, invalid, coincident, needle-shaped and huge primitives.
 
 #include "accel/accel.h"
 #include "accel/layout.h"

@@ -1,4 +1,4 @@
-// What a ray hits depends neither on the rays that it is traced with nor on the tree.
+// A ray's hit depends neither on the other rays of its packet nor on the tree.
 
 #include "accel/packet.h"
 #include "brute_force.h"

@@ -1,4 +1,4 @@
-// The list of primitive kinds and what names them: child references and their limits.
+// The list of primitive kinds, and their child references with limits.
 
 #include "accel/accel.h"
 #include "accel/wide_bvh.h"

@@ -1,4 +1,4 @@
-// Both implementations of eight floats, lane by lane against plain floats, and traversal with either.
+// Both SIMD implementations, lane by lane against scalar floats, and traversal with both.
 
 #include "accel/simd/simd.h"
 #include "accel/traversal.h"

@@ -1,4 +1,4 @@
-// From inside a closed mesh no ray gets out: not through edges, not through vertices, wherever the mesh lies.
+// No ray leaves a closed mesh from inside, through edges or vertices, at any position of the mesh.
 
 #include "accel/accel.h"
 #include "accel/intersect.h"

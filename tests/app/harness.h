@@ -1,5 +1,6 @@
 #pragma once
-// The Viewer without a window: OSMesa draws into memory, and a hand that moves, presses, types and looks.
+// Drives a Viewer without a window: OSMesa draws into memory, and the harness sends input and reads the
+// result.
 
 #include "app/platform/offscreen_context.h"
 #include "app/viewer/viewer.h"
@@ -64,9 +65,9 @@ inline Document test_document() {
 struct HarnessOptions {
   ivec2 size{1280, 720};
   float scale = 1;
-  bool fit_film = false; ///< a small fixed film keeps the tests quick
+  bool fit_film = false; ///< a small fixed film keeps the tests fast
   std::filesystem::path screenshot_folder = ".";
-  std::filesystem::path preferences = {}; ///< empty: nothing is remembered
+  std::filesystem::path preferences = {}; ///< empty: not stored
   std::function<void(const Progress&)> on_build = {};
   std::string scene_path = {}; ///< ViewerOptions::scene_path
 };
@@ -92,13 +93,13 @@ public:
   /// Long enough that the next click is not the second one of a double click.
   void pause() { frame(1, 0.5); }
 
-  /// Until the newest Document is rendered and on the screen.
+  /// Waits until the newest Document is rendered and on the screen.
   void wait_for_picture(double seconds = 60) {
     ASSERT_TRUE(viewer.session().wait_finished(seconds)) << "the picture did not get ready";
     frame(2);
   }
 
-  /// Frames until `done` or, a failure, for 30 seconds.
+  /// Draws frames until `done`; fails after 30 seconds.
   template <class Condition>
   void wait_until(const char* what, Condition done) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
@@ -112,7 +113,7 @@ public:
   std::vector<std::uint8_t> pixels() const { return context_.pixels(); }
   ivec2 size() const { return context_.size(); }
 
-  /// Leaves what is on the screen in screenshots/<name>.png of the tests' build folder.
+  /// Writes the screen to screenshots/<name>.png in the tests' build folder.
   void screenshot(const std::string& name) const {
     const std::vector<std::uint8_t> rgba = pixels();
     std::vector<std::uint8_t> rgb;
@@ -121,7 +122,7 @@ public:
     write_srgb8_image(size().x, size().y, rgb, screenshot_path(name + ".png"));
   }
 
-  // The hand. Each step is shown in a frame of its own.
+  // Input. Each step is drawn in a frame of its own.
 
   void send(Event event) {
     viewer.handle(std::move(event));
@@ -164,6 +165,15 @@ public:
     key_down(key);
     key_up(key);
   }
+  /// A key with Ctrl, perhaps with Shift, then `frames` more frames.
+  void control(Key k, bool shift = false, int frames = 0) {
+    key_down(Key::left_control);
+    if (shift) key_down(Key::left_shift);
+    key(k);
+    if (shift) key_up(Key::left_shift);
+    key_up(Key::left_control);
+    frame(frames);
+  }
   void type(const std::string& text) {
     for (char c : text) send(TextTyped{static_cast<char32_t>(c)});
   }
@@ -179,7 +189,7 @@ public:
     return w.lo.x >= w.clip_lo.x - 1 && w.lo.y >= w.clip_lo.y - 1 && w.hi.x <= w.clip_hi.x + 1 &&
            w.hi.y <= w.clip_hi.y + 1 && w.hi.y > w.lo.y;
   }
-  /// Scrolls the panels until the widget is to be seen, and returns its middle.
+  /// Scrolls the panels until the widget is visible, and returns its centre.
   vec2 reveal(const std::string& name) {
     for (int i = 0; i < 300; ++i) {
       const auto widget = find(name);
@@ -190,12 +200,12 @@ public:
       scroll({x, 300}, widget->lo.y < widget->clip_lo.y + 1 ? 1.0f : -1.0f);
       frame();
     }
-    ADD_FAILURE() << name << " is nowhere to be seen";
+    ADD_FAILURE() << name << " is not visible";
     return vec2(-1);
   }
   void click(const std::string& name) { click(reveal(name)); }
   void double_click(const std::string& name) { double_click(reveal(name)); }
-  /// Opens a fold unless it shows `inside` already.
+  /// Opens a section unless it shows `inside` already.
   void unfold(const std::string& section, const std::string& inside) {
     if (!find(inside)) click(section);
     frame(2);

@@ -1,4 +1,4 @@
-// Pictures that carry their scene are made again, bit for bit.
+// Pictures with a state are rendered again, bit for bit.
 
 #include "app/viewer/picture_saver.h"
 #include "io/images/image_file.h"
@@ -37,7 +37,7 @@ TEST(PictureStateRender, EveryShippedSceneIsMadeAgain) {
     ASSERT_EQ(run(fmt::format("render '{}' {} -o '{}' -o '{}'", entry.path().string(), edits,
                               scratch / "a.png", scratch / "a.exr")),
               0);
-    // What the picture says of itself is the same, too: the files are.
+    // The metadata is the same, too, since the files are equal.
     for (const char* ending : {"png", "exr"}) {
       const std::string first = scratch / fmt::format("a.{}", ending),
                         again = scratch / fmt::format("b.{}", ending);
@@ -62,7 +62,7 @@ TEST(PictureStateRender, CropsAndDenoisedPicturesAreMadeAgain) {
   EXPECT_NE(run(fmt::format("render '{}' -o '{}' 2>/dev/null", scratch / "c.png", scratch / "d.png")), 0);
 }
 
-// The window's pictures: of a session that went through edits.
+// Pictures saved in the window, after edits.
 TEST(PictureStateRender, ScreenshotsAreMadeAgain) {
   test::ScratchFolder scratch;
   Document document =

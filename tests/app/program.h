@@ -1,6 +1,5 @@
 #pragma once
-// The program as its users start it: exit codes, what goes to stdout and stderr, and the files that it
-// leaves.
+// Runs the program as a process: exit codes, stdout, stderr and files.
 
 #include "support/scratch_folder.h"
 
@@ -25,7 +24,7 @@ protected:
 
   std::string path(const std::string& name) { return scratch / name; }
   std::string text(const std::string& name) { return read_text(path(name)); }
-  /// `arguments` as for a shell, run in the scratch folder; `before` is what the shell does first.
+  /// `arguments` are for a shell, in the scratch folder; `before` is a shell command that runs first.
   Outcome run(const std::string& arguments, const std::string& environment = "",
               const std::string& before = "true", const std::string& streams = ">out.txt 2>err.txt") {
     for (const char* name : {"out.txt", "err.txt"}) std::filesystem::remove(path(name));

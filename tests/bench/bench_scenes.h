@@ -1,5 +1,5 @@
 #pragma once
-// What traversal_bench looks at: scenes made in code, of few and of many triangles, and a scanned mesh.
+// Scenes of traversal_bench: generated ones with few and with many triangles, and a scanned mesh.
 
 #include "core/bounds.h"
 #include "core/hash.h"
@@ -89,7 +89,7 @@ inline BenchScene displaced_sphere(std::uint32_t rings) {
   return scene;
 }
 
-/// Long thin triangles in all directions: what boxes fit worst.
+/// Long thin triangles in all directions, which boxes fit badly.
 inline BenchScene needles(std::uint32_t count) {
   BenchScene scene{"needles", {}, {{0, 0.3f, -2.6f}, {0, 0, 0}, radians(40), {1, 3, -2}, 1}};
   TriangleMesh& m = scene.mesh;
@@ -137,7 +137,7 @@ inline BenchScene bunny() {
   if (b.empty()) return scene;
   vec3 c = b.center();
   float size = max_component(b.diagonal());
-  // On a floor, as in any picture.
+  // The mesh is on a floor, as in typical scenes.
   float y = b.lo.y, s = 2 * size;
   add_quad(scene.mesh, {c.x - s, y, c.z - s}, {c.x - s, y, c.z + s}, {c.x + s, y, c.z + s},
            {c.x + s, y, c.z - s});

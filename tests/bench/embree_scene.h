@@ -1,5 +1,5 @@
 #pragma once
-// Embree's side of traversal_bench: a scene of one mesh, traced by single rays or by packets of 16.
+// Embree in traversal_bench: a scene of one mesh, traced with single rays or packets of 16.
 
 #include "bench_scenes.h"
 #include "core/ray.h"
@@ -49,7 +49,7 @@ public:
     rtcIntersect1(scene_, &context, &query);
     return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
   }
-  /// How many of 16 rays hit something, told that they are coherent.
+  /// The number of hits of 16 rays, traced as coherent ones.
   std::size_t intersect_16(const Ray* rays) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

@@ -1,6 +1,6 @@
 // Samples per second on the Cornell box (512x512, box filter, unlimited depth, default settings), and the
-// noise that they leave: relMSE x spp and the efficiency 1 / (relMSE x seconds), from pairs of independent
-// seeds. Or on another scene of versus_cycles.
+// noise: relMSE x spp and the efficiency 1 / (relMSE x seconds), from pairs of independent seeds. Or on
+// another scene of versus_cycles.
 //
 //   render_bench [--short] [--scene cornell|ball|plates] [--size N] [--threads N] [KEY=VALUE ...]
 

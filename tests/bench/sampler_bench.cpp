@@ -1,5 +1,5 @@
-// Cost of random numbers and of the warps that follow them, in the pattern of a path: one start a sample,
-// then a few draws a bounce.
+// Cost of random numbers and of warps, in the pattern of a path: one start per sample, then a few draws per
+// bounce.
 
 #include "materials/direction_sampling.h"
 #include "sampling/sampler.h"
@@ -63,7 +63,7 @@ BENCHMARK_CAPTURE(bm_get_1d, pmj02, SamplerType::pmj02);
 BENCHMARK_CAPTURE(bm_get_1d, lattice, SamplerType::lattice);
 BENCHMARK_CAPTURE(bm_get_1d, blue_noise, SamplerType::blue_noise);
 
-/// A warp over points of the unit square that are made in advance.
+/// A warp over precomputed points of the unit square.
 template <class Warp>
 void bm_warp(benchmark::State& state, Warp warp) {
   std::vector<vec3> points(1024);

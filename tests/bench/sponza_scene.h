@@ -10,7 +10,7 @@
 
 namespace candela::bench {
 
-/// All of a zlib stream that begins at `data`; empty if it is broken.
+/// The decompressed zlib stream that begins at `data`; empty on errors.
 inline std::vector<unsigned char> inflate_all(const unsigned char* data, std::size_t size) {
   std::vector<unsigned char> out(1 << 16);
   z_stream stream{};
@@ -50,8 +50,8 @@ inline void append_shape(TriangleMesh& mesh, const std::vector<unsigned char>& b
   }
 }
 
-/// Without triangles if there is no such file. The shapes' transforms are the same small shift; it is left
-/// out.
+/// Without triangles if the file is missing. The shapes' transforms are the same small translation, which is
+/// ignored.
 inline BenchScene sponza() {
   BenchScene scene{
       "sponza", {}, {{14.45f, 6.894f, -1.185f}, {13.456f, 6.784f, -1.159f}, radians(70), {0, 14, 0}, 3}};

@@ -1,12 +1,12 @@
 #pragma once
-// How long a build takes.
+// Duration of builds.
 
 #include <chrono>
 #include <ctime>
 
 namespace candela::bench {
 
-/// In seconds. On a machine that others use, too, the processor's time (of all threads) is the steadier one.
+/// Seconds. On a shared machine, CPU time (of all threads) is more stable than wall time.
 struct BuildTime {
   double wall = 1e30, processor = 1e30;
 

@@ -1,12 +1,12 @@
-// Rays per second of the acceleration structure beside Embree's, on the same rays in one run: absolute
-// numbers drift with the machine, the ratio does not. Single rays on both sides (rtcIntersect1, rtcOccluded1;
-// robust scenes), and camera rays in packets (Accel::intersect of many, rtcIntersect16).
+// Rays per second of the acceleration structure and of Embree, for the same rays in one run: absolute numbers
+// drift with the machine, ratios do not. Single rays on both sides (rtcIntersect1, rtcOccluded1; robust
+// scenes), and camera rays in packets (Accel::intersect of many, rtcIntersect16).
 //
 //   traversal_bench [--short] [--scene NAME] [--threads N] [--rays-only | --builds-only]
 //
 // Each line: scene, ray set, threads, Mrays/s of ours (high build), of Embree (MEDIUM and HIGH builds), the
-// ratios, and whether the lesser one reaches its target. Packets have none: what they are worth is seen in a
-// whole render. Before them the rates of building, in turn.
+// ratios, and whether the lower one reaches its target. Packets have no target: their benefit is measured in
+// whole renders. The rates of building come first.
 
 #include "accel/accel.h"
 #include "bench_scenes.h"
@@ -45,8 +45,8 @@ float random(std::uint32_t index, std::uint32_t dimension) {
   return to_unit_float(hash32(index + hash32(dimension)));
 }
 
-/// A pinhole camera's rays, tile by tile as a renderer traces them: of all tiles one sample a pixel, or more
-/// of so much fewer tiles.
+/// A pinhole camera's rays, tile by tile as in a renderer: one sample a pixel of all tiles, or more samples
+/// of correspondingly fewer tiles.
 std::vector<Ray> primary_rays(const View& view, std::uint32_t size, std::uint32_t samples = 1) {
   constexpr std::uint32_t kTile = 16;
   Basis frame = Basis::from_normal(glm::normalize(view.target - view.eye));
@@ -90,7 +90,7 @@ RaySets make_rays(const BenchScene& scene, const Accel& accel, std::uint32_t siz
   return sets;
 }
 
-/// Least time of a few runs, in seconds: the others were disturbed.
+/// The least time of a few runs, in seconds, which is disturbed least by other programs.
 double least_seconds(int repeats, const std::function<void()>& f) {
   double best = 1e30;
   for (int i = 0; i < repeats; ++i) {
@@ -101,15 +101,15 @@ double least_seconds(int repeats, const std::function<void()>& f) {
   return best;
 }
 
-/// The least time of each chunk of rays over all rounds, and what the whole hit.
+/// The least time of each chunk of rays over all rounds, and the total number of hits.
 struct Measured {
   std::vector<double> chunk_seconds;
   std::size_t hits = 0;
 };
 
-/// Traces the rays once with each of `tracers` (functions from some rays to how many of them hit) in turn,
-/// again and again, and keeps for every 2048 rays the least time: on a shared machine the least time of short
-/// pieces is what would be measured undisturbed, and the turns make whatever is left meet all alike. Gives
+/// Repeatedly traces the rays with each of `tracers` in turn (functions from rays to their number of hits),
+/// and keeps the least time of every 2048 rays: on a shared machine, the least time of short pieces
+/// approximates an undisturbed run, and alternating distributes the remaining disturbance equally. Returns
 /// the rays per second of each.
 template <class... Tracers>
 std::vector<std::pair<double, std::size_t>> measure(const std::vector<Ray>& rays, int threads, int rounds,
@@ -147,7 +147,7 @@ std::vector<std::pair<double, std::size_t>> measure(const std::vector<Ray>& rays
   return result;
 }
 
-/// Times builds in turn, that all meet the same disturbances.
+/// Times builds in turn, so that disturbances affect all equally.
 void report_build(const BenchScene& scene, int threads, const Options& options) {
   AccelInput input;
   input.vertices = scene.mesh.vertices, input.triangles = scene.mesh.triangles;
@@ -174,7 +174,7 @@ void report_build(const BenchScene& scene, int threads, const Options& options) 
   };
   builds.push_back({"Embree medium", theirs(RTC_BUILD_QUALITY_MEDIUM, true)});
   builds.push_back({"Embree high", theirs(RTC_BUILD_QUALITY_HIGH, true)});
-  // Robust scenes do without the spatial splits that ours has at high quality.
+  // Robust scenes have no spatial splits, which our high quality has.
   builds.push_back({"Embree high, not robust", theirs(RTC_BUILD_QUALITY_HIGH, false)});
 #endif
   for (int i = 0; i < repeats; ++i)
@@ -198,8 +198,8 @@ void report_build(const BenchScene& scene, int threads, const Options& options) 
 #endif
 }
 
-/// What tinybvh's BVH8_CPU reaches of Embree's rays per second in primary, diffuse and shadow rays, as it was
-/// measured once: what there is to reach.
+/// Rays per second of tinybvh's BVH8_CPU relative to Embree for primary, diffuse and shadow rays, measured
+/// once; used as targets.
 struct Target {
   std::string_view scene;
   std::array<double, 3> ratio;
@@ -209,7 +209,7 @@ constexpr std::array<Target, 4> kTargets{{{"cornell", {20.7 / 13.6, 13.4 / 10.9,
                                           {"sponza", {6.9 / 6.3, 3.7 / 4.2, 10.8 / 9.1}},
                                           {"sphere", {6.4 / 7.0, 3.7 / 4.7, 4.2 / 5.0}}}};
 
-/// What the ratio to Embree must be: Embree's rate at least, and that of the other.
+/// The target of the ratio to Embree: at least 1, and that of tinybvh.
 double target_ratio(std::string_view scene, std::size_t set) {
   double result = 1;
   for (const Target& t : kTargets)
@@ -217,14 +217,14 @@ double target_ratio(std::string_view scene, std::size_t set) {
   return result;
 }
 
-/// What a line is about.
+/// The contents of a line.
 struct Rated {
   std::string_view scene, rays;
   int threads;
   double target; ///< 0 for none
 };
 
-/// The rates of ours and, where there are any, of Embree's builds.
+/// Our rate and, if available, those of Embree's builds.
 void print_rates(const Rated& rated, const std::vector<std::pair<double, std::size_t>>& rates) {
   auto [ours, hits] = rates[0];
   std::string line = fmt::format("{:8} {:8} {}T  Mrays/s: ours {:6.2f}", rated.scene, rated.rays,

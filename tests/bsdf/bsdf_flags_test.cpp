@@ -1,4 +1,4 @@
-// What models say that they do, against what they do.
+// The flags of models against their behaviour.
 
 #include "bsdf/bsdf_test_models.h"
 

@@ -1,4 +1,4 @@
-// What all scattering models promise.
+// Properties of all scattering models.
 
 #include "bsdf/bsdf_test_models.h"
 #include "materials/bsdf.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Models and directions that several tests go through.
+// Models and directions for several tests.
 
 #include "materials/bsdf.h"
 #include "support/seed.h"

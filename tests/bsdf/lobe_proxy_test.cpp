@@ -1,4 +1,4 @@
-// The stand-in for a BSDF by which lights are chosen.
+// The lobe proxy of a BSDF for light selection.
 
 #include "materials/bsdf.h"
 #include "support/seed.h"

@@ -1,5 +1,5 @@
-// A folder of src/ may include only itself and the folders before it, the rooms within a folder likewise, and
-// only app/ knows the window.
+// A folder of src/ may include only itself and the folders before it; the same holds for the rooms within a
+// folder. Only app/ may include window libraries.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ const std::map<std::string, std::vector<std::string>, std::less<>>& rooms() {
   return table;
 }
 
-/// What each layer may include beside itself.
+/// The layers that each layer may include besides itself.
 const std::map<std::string, std::set<std::string>, std::less<>>& allowed() {
   static const std::map<std::string, std::set<std::string>, std::less<>> table = [] {
     std::map<std::string, std::set<std::string>, std::less<>> t;

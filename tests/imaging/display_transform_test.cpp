@@ -1,4 +1,4 @@
-// What display settings come to for a picture: automatic exposure, false colours.
+// Display settings applied to pictures: automatic exposure, false colours.
 
 #include "core/color.h"
 #include "imaging/display_transform.h"
@@ -44,14 +44,14 @@ TEST(AutomaticExposure, BlackAndNonFinitePixelsDoNoHarm) {
 }
 
 TEST(AutomaticExposureStatistical, StandsStillWhileThePictureRefines) {
-  // Pixels of one sample: in one of twenty there is light, twenty times the mean. A logarithm of pixels would
-  // be stops away.
+  // Pixels of one sample: one in twenty is lit, with twenty times the mean. A mean of pixels' logarithms
+  // would be wrong by stops.
   std::mt19937_64 random(fresh_seed());
   std::uniform_int_distribution<int> chance(0, 19);
   std::vector<vec3> noisy(640 * 640);
   for (vec3& pixel : noisy) pixel = vec3(chance(random) == 0 ? 20.0f : 0.0f);
-  // A cell has 100 pixels, of which 5 +- 2.2 are lit: the logarithm's mean is lower by 1 / (2 ln 2) of the
-  // relative variance 0.19, and 4096 cells average the rest away. Empty ones (0.6 %) are left out.
+  // A cell has 100 pixels, of which 5 +- 2.2 are lit: the mean logarithm is lower by 1 / (2 ln 2) of the
+  // relative variance 0.19, and 4096 cells average out the rest. Empty cells (0.6 %) are skipped.
   EXPECT_NEAR(automatic_exposure(noisy, 640, 640), std::log2(0.18f), 0.25f) << seed_note();
 }
 

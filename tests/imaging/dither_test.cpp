@@ -41,13 +41,13 @@ TEST(Dither, TheMeanOfAFlatPatchIsItsValue) {
     const auto rgb = mapped(std::vector<vec3>(kSide * kSide, vec3(value)), kSide, true);
     double sum = 0;
     for (std::size_t i = 0; i < rgb.size(); i += 3) sum += rgb[i];
-    // The lattice spreads better than chance, whose standard deviation is at most 0.5 / 64.
+    // The lattice is more even than random numbers, whose standard deviation is at most 0.5 / 64.
     EXPECT_NEAR(sum / (kSide * kSide), encoded(value), 0.005) << code;
   }
 }
 
 TEST(Dither, SmallPatchesKeepTheMean) {
-  // 8 x 8 pixels anywhere: a band of that size is not to be seen. A random dither would give 0.5 / 8.
+  // Any 8 x 8 pixels: a band of that size is invisible. A random dither would give 0.5 / 8.
   constexpr int kWidth = 200, kHeight = 100;
   const float value = decoded(10.5);
   const auto rgb = mapped(std::vector<vec3>(kWidth * kHeight, vec3(value)), kWidth, true);
@@ -61,7 +61,7 @@ TEST(Dither, SmallPatchesKeepTheMean) {
 }
 
 TEST(Dither, AGradientHasNoBands) {
-  // A dark ramp of 6 codes over 600 pixels: rounded, columns are alike for a hundred pixels.
+  // A dark ramp of 6 codes over 600 pixels: with rounding, a hundred columns are equal.
   constexpr int kWidth = 600, kHeight = 64;
   std::vector<vec3> linear;
   for (int y = 0; y < kHeight; ++y)
@@ -81,8 +81,8 @@ TEST(Dither, AGradientHasNoBands) {
   };
   EXPECT_GT(longest_run(mapped(linear, kWidth, false)), 90);
   EXPECT_LE(longest_run(mapped(linear, kWidth, true)), 2) << "where the ramp passes a code";
-  // Nor does the mean of a column jump: it rises as the ramp does, 0.01 a column. The lattice puts all but a
-  // few of 64 numbers where they belong; rounding errs by half a code.
+  // The mean of a column does not jump: it rises like the ramp, by 0.01 per column. The lattice distributes
+  // nearly all of 64 values correctly; rounding has errors of half a code.
   const auto rgb = mapped(linear, kWidth, true);
   for (int x = 0; x < kWidth; ++x) {
     double sum = 0;
@@ -127,7 +127,7 @@ TEST(Dither, GreysStayGrey) {
 }
 
 TEST(Dither, DependsOnThePlaceAlone) {
-  // Whatever the blocks in which a picture is mapped: every size about theirs, and parts of a picture.
+  // Independent of the blocks in which a picture is processed: sizes around theirs, and parts of a picture.
   constexpr int kWidth = 700, kHeight = 9;
   const std::vector<vec3> linear(kWidth * kHeight, vec3(decoded(30.37)));
   const auto whole = mapped(linear, kWidth, true);
@@ -162,7 +162,7 @@ TEST(Dither, WindowAndFilesAreTheSame) {
 }
 
 TEST(Dither, OnlyWhatIsSeenNotWhatIsRead) {
-  // Colours that stand for numbers are exact; radiance is dithered unless the settings say no.
+  // Colours that represent numbers are exact; radiance is dithered unless disabled.
   const std::vector<vec3> linear(64 * 64, vec3(decoded(30.5)));
   auto varies = [&](const DisplaySettings& display, View view) {
     std::vector<std::uint8_t> rgb(3 * linear.size());

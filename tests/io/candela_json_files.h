@@ -1,5 +1,5 @@
 #pragma once
-// A scene in Candela JSON, and what reading it says.
+// Scenes in Candela JSON, and the result of reading them.
 
 #include "io/scene_files.h"
 

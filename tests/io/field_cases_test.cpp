@@ -1,4 +1,4 @@
-// Inputs after what people report of programs of this kind.
+// Inputs similar to those of common bug reports.
 
 #include "io/images/texels_reader.h"
 #include "io/scene_files.h"

@@ -44,7 +44,7 @@ TEST_F(IniJobs, SettingsInTheTermsOfTheTable) {
   EXPECT_TRUE(loaded.output_files.empty());
 }
 
-// As QSettings has it.
+// As in QSettings.
 TEST_F(IniJobs, CommentsMayFollowValues) {
   files.write("j.ini",
               "[IO] ; where\nscene = s.xml ; the scene\noutput = \"a;b.png\" ; in quotes\n"

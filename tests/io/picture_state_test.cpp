@@ -108,7 +108,7 @@ TEST_F(PictureStateTest, NoticesFilesThatChanged) {
   EXPECT_NE(message_of(path("a.png")).find("there is no file"), std::string::npos);
 }
 
-// The picture lies beside the scene's folder, not above it.
+// The picture is next to the scene's folder, not above it.
 TEST_F(PictureStateTest, OpensOutsideOfItsFolderOnlyWhatItKnows) {
   write_textured_scene("scene");
   fs::create_directories(path("pictures"));

@@ -1,4 +1,4 @@
-// How far reading is, and that it ends when it is told to, in every format.
+// Progress and cancellation of reading, in every format.
 
 #include "io/images/image_codec.h"
 #include "io/images/panorama_reader.h"
@@ -95,7 +95,8 @@ TEST_F(ReadProgressTest, ShareEndsAtOneWhenAllIsRead) {
   }
 }
 
-/// Cancels as soon as the share is above `at`; gives the share at the end, nothing if all was read before.
+/// Cancels as soon as the progress is above `at`; returns the progress at the end, or nothing if reading had
+/// finished.
 std::optional<double> cancel_meanwhile(const std::string& path, double at) {
   ReadOptions options;
   std::atomic<bool> over{false};
@@ -112,7 +113,7 @@ std::optional<double> cancel_meanwhile(const std::string& path, double at) {
   return ended_early ? std::optional(options.progress->share()) : std::nullopt;
 }
 
-/// Where a file is read quicker than the hand is, it is tried again.
+/// Repeated if the file is read before the cancellation.
 bool can_be_cancelled(const std::string& path, double at) {
   for (int attempt = 0; attempt < 50; ++attempt)
     if (cancel_meanwhile(path, at)) return true;
@@ -138,7 +139,7 @@ TEST_F(ReadProgressTest, LargeFilesAreGivenUpMeanwhile) {
   EXPECT_TRUE(can_be_cancelled(files / "large.xml", 0.4));
 }
 
-// A scene's files are known before the first of them is read: half of the bytes are half of the share.
+// A scene's files are known before the first is read: half of the bytes are half of the progress.
 TEST_F(ReadProgressTest, FilesThatAreNamedCountBeforeTheyAreRead) {
   auto watched = std::make_shared<Progress>();
   WarningList list(watched);

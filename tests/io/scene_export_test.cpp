@@ -1,4 +1,4 @@
-// Converted scenes stand on their own and read back the same.
+// Converted scenes are self-contained and read back unchanged.
 
 #include "io/scene_export.h"
 #include "io/scene_files.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Scene files written by a test, and what reading them says.
+// Scene files written by a test, and the result of reading them.
 
 #include "io/scene_reader.h"
 #include "support/scratch_folder.h"

@@ -1,5 +1,5 @@
-// Damaged scenes of every format: each is refused with a located message, or read as something valid; none
-// crashes. Run under the sanitizers too.
+// Damaged scenes of every format: each is rejected with a located message, or gives a valid scene; none
+// crashes. Run with sanitizers, too.
 
 #include "io/scene_files.h"
 #include "support/seed.h"
@@ -50,7 +50,7 @@ struct Format {
   const char* file; ///< that is damaged
   const char* read; ///< that is read
   const char* text;
-  /// Whether much of the damage costs no more than a vertex, a face or a statement.
+  /// Whether damage often affects only a vertex, a face or a statement.
   bool tolerant = false;
 };
 
@@ -65,7 +65,7 @@ protected:
     files.write("j.ini", kIni);
   }
 
-  /// Reads the scene with one of its files replaced. Whether it was accepted.
+  /// Reads the scene with one of its files replaced; returns whether it was accepted.
   bool attempt(const std::string& text) {
     test::write_text(files / GetParam().file, text);
     try {
@@ -84,7 +84,7 @@ protected:
 
 TEST_P(HostileScenes, Whole) { EXPECT_TRUE(attempt(GetParam().text)); }
 
-/// Finite numbers whose squares are not: the camera that is set up for the mesh has to be usable.
+/// Finite numbers whose squares are infinite: the camera for the mesh must be valid.
 TEST(HostileCoordinates, AreFinite) {
   SceneFiles files;
   for (const char* coordinate : {"1.5e21", "-1.5e21", "3.4e38", "1e13"}) {

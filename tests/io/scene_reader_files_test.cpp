@@ -1,4 +1,4 @@
-// The one list of a scene's files: all that decide what it is, in every format.
+// The list of all files that a scene depends on, in every format.
 
 #include "io/files/path_policy.h"
 #include "io/images/image_file.h"

@@ -1,4 +1,4 @@
-// The scenes in scenes/: each reads without a word and says what its description promises.
+// The scenes in scenes/: each is read without warnings and has the properties that its description states.
 
 #include "core/color.h"
 #include "io/scene_files.h"
@@ -145,7 +145,7 @@ TEST(ShippedScenes, TheClearSkyHasItsSunWhereTheGeneratorPutsIt) {
       all += received;
       if (std::abs(elevation - 32) < 2 && std::abs(azimuth - 60) < 2) sun += received;
     }
-  // On a surface that faces all of it the sun sends several times what the sky does.
+  // On a surface facing the sun, its irradiance is several times that of the sky.
   EXPECT_GT(sun / all, 0.6);
   EXPECT_LT(sun / all, 0.95);
 }

@@ -37,7 +37,7 @@ TEST(BrdfLessonStatistical, EveryDensityIsWhatIsSampled) {
 TEST(BrdfLessonStatistical, TheAlbedoIsTheSameBySamplingEitherWay) {
   SCOPED_TRACE(seed_note());
   for (std::size_t m = 0; m < models().size(); ++m) {
-    if (m == 2) continue; // hardly a sample over the hemisphere meets so narrow a lobe
+    if (m == 2) continue; // hardly any sample over the hemisphere is in so narrow a lobe
     SCOPED_TRACE(m);
     const auto own = finished(models()[m], {radians(50.0f), DirectionSampling::bsdf}, 200000, fresh_seed());
     const auto cosine =

@@ -133,7 +133,7 @@ TEST(EstimationStatistical, EverySamplerHasTheSameExpectation) {
     SCOPED_TRACE(static_cast<int>(type));
     Estimation<PiExperiment> lesson({}, {type, fresh_seed()}, 64, 2000);
     lesson.advance(64);
-    RunningStatistics streams; // the estimate of each, made again
+    RunningStatistics streams; // the estimate of each, recomputed
     for (int s = 0; s < lesson.streams(); ++s) {
       double sum = 0;
       for (std::uint64_t i = 0; i < 64; ++i) sum += lesson.replay(i, s).value;
@@ -152,7 +152,7 @@ TEST(EstimationStatistical, WellSpreadSamplesBeatIndependentOnes) {
     lesson.advance(4096);
     return lesson.trace().back().rms_error;
   };
-  // 64 streams know a root mean square to some 9 %; Sobol' points are three times as good here.
+  // 64 streams estimate a root mean square within about 9 %; Sobol' points have a third of the error here.
   EXPECT_LT(error(SamplerType::sobol), 0.6 * error(SamplerType::independent));
 }
 

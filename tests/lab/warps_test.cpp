@@ -39,7 +39,7 @@ TEST(Warps, ChartsInvertAndKeepTheirMeasure) {
         const vec2 back = warp.chart(warp.from_chart(q));
         EXPECT_NEAR(back.x, x, 3e-6f);
         EXPECT_NEAR(back.y, y, 3e-6f);
-        const float h = 2e-3f; // the area that a small square of the chart becomes
+        const float h = 2e-3f; // the area of the image of a small square of the chart
         const vec3 dx = warp.from_chart(q + vec2(h, 0)) - warp.from_chart(q - vec2(h, 0));
         const vec3 dy = warp.from_chart(q + vec2(0, h)) - warp.from_chart(q - vec2(0, h));
         const double area = static_cast<double>(glm::length(glm::cross(dx, dy)) / (4 * h * h));
@@ -79,7 +79,7 @@ TEST(Warps, DoNotDependOnTheSteps) {
   while (!steps.finished()) steps.advance(77);
   EXPECT_EQ(whole.histogram().counts, steps.histogram().counts);
   EXPECT_EQ(whole.histogram().total, 1000);
-  // Replaying finds the same cells.
+  // Replayed draws are in the same cells.
   std::vector<double> counts(whole.histogram().counts.size());
   for (std::uint64_t i = 0; i < 1000; ++i)
     ++counts[whole.histogram().grid.cell(whole.warp().chart(whole.replay(i)))];

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace candela {
@@ -46,7 +48,7 @@ TEST(LightModels, AChangeOfTheTypeKeepsEqualKeys) {
   EXPECT_EQ(light.scale, 5);
 }
 
-TEST(LightModels, SayWhatTheirRowsCannot) {
+TEST(LightModels, FindWhatTheirRowsCannotCheck) {
   LightDesc light;
   light.model = PointLightModel{.attenuation = vec3(0)};
   EXPECT_EQ(light_problem(light), "attenuation: is zero; give 0 0 1 for 1 / r^2");
@@ -56,9 +58,65 @@ TEST(LightModels, SayWhatTheirRowsCannot) {
   EXPECT_EQ(light_problem(light), "direction: has no length; give a direction");
   light.model = EnvironmentLightModel{.up = vec3(0)};
   EXPECT_EQ(light_problem(light), "up: has no length; give a direction");
-  light.model = ConstantLightModel{};
-  light.scale = -1;
-  EXPECT_TRUE(light_problem(light).starts_with("scale: ")) << light_problem(light);
+}
+
+TEST(LightModels, RefuseValuesThatDoNotFitTheirRows) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              infinite = std::numeric_limits<float>::infinity();
+  for (int type = 0; type < kLightTypeCount; ++type)
+    for (const auto& row : light_fields(type)) {
+      SCOPED_TRACE(std::string(light_type_names()[static_cast<std::size_t>(type)]) + "." +
+                   std::string(row.key));
+      auto problem_with = [&](auto set) {
+        LightDesc light = default_light(type);
+        set(row.address(light));
+        return light_problem(light);
+      };
+      const std::string start = std::string(row.key) + ": ";
+      if (row.type == FieldType::choice) {
+        EXPECT_TRUE(problem_with([](void* v) { *static_cast<int*>(v) = 99; }).starts_with(start));
+        continue;
+      }
+      const bool is_vector = row.type == FieldType::point || row.type == FieldType::color;
+      for (float wrong : {nan, infinite, -1e30f}) {
+        if (wrong == -1e30f && !std::isfinite(row.minimum)) continue; // every number fits
+        const std::string problem = problem_with([&](void* v) {
+          if (is_vector)
+            static_cast<vec3*>(v)->y = wrong;
+          else
+            *static_cast<float*>(v) = wrong;
+        });
+        EXPECT_TRUE(problem.starts_with(start)) << wrong << ": '" << problem << "'";
+      }
+    }
+}
+
+TEST(LightModels, StateTheUnitOfTheirColour) {
+  auto color_row = [](const LightDescModel& model) -> const Field<LightDesc>& {
+    return *std::ranges::find(light_fields(light_type(LightDesc{"", model})), "color", &FieldInfo::key);
+  };
+  EXPECT_EQ(color_row(PointLightModel{}).unit, "W/sr");
+  EXPECT_EQ(color_row(SpotLightModel{}).unit, "W/sr");
+  EXPECT_EQ(color_row(DirectionalLightModel{}).unit, "W/m^2");
+  EXPECT_EQ(color_row(ConstantLightModel{}).unit, "W/(m^2 sr)");
+  EXPECT_EQ(color_row(EnvironmentLightModel{}).unit, "");
+  for (std::string_view name : light_type_names())
+    EXPECT_NE(light_type_field().help.find(std::string(name) + ": "), std::string_view::npos) << name;
+}
+
+TEST(Panoramas, HaveFinitePixelsThatFitTheirSize) {
+  Panorama panorama;
+  EXPECT_NE(panorama_problem(panorama), "");
+  panorama.image = {2, 1, {vec3(0), vec3(1e9f)}};
+  EXPECT_EQ(panorama_problem(panorama), "");
+  panorama.image.height = 2;
+  EXPECT_TRUE(panorama_problem(panorama).starts_with("its pixels do not fit"));
+  panorama.image.height = 1;
+  for (float wrong :
+       {-1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    panorama.image.pixels[1].z = wrong;
+    EXPECT_TRUE(panorama_problem(panorama).starts_with("a pixel is negative or not finite")) << wrong;
+  }
 }
 
 } // namespace

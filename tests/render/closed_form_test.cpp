@@ -1,4 +1,4 @@
-// Images that are known exactly.
+// Images with closed forms.
 
 #include "render/closed_forms.h"
 #include "render/render_testing.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Irradiances that are known exactly, in double precision and written apart from what they test.
+// Closed forms of irradiances in double precision, independent of the tested code.
 
 #include "core/math.h"
 

@@ -1,4 +1,4 @@
-// The same bits whatever the machine does: threads, portions, order, crops and replays.
+// The same bits for any number of threads, passes, order, crops and replays.
 
 #include "render/strategy_scenes.h"
 

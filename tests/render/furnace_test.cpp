@@ -1,5 +1,5 @@
-// Light that no surface may change: in a furnace of radiance 1 what absorbs nothing is invisible, and a
-// slab's absorption and reflections have closed forms.
+// Furnace tests: in a furnace of radiance 1, surfaces without absorption are invisible, and a slab's
+// absorption and reflections have closed forms.
 
 #include "render/closed_forms.h"
 #include "render/render_testing.h"

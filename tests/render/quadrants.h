@@ -1,5 +1,5 @@
 #pragma once
-// What a render says about the expectation of its image: means of its quadrants with their variances.
+// Estimates of an image's expectation: means of its quadrants with their variances.
 
 #include "render/render_testing.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Renders for tests, and what their samples say about an expected radiance.
+// Renders for tests, and statistical tests of their samples against an expected radiance.
 
 #include "core/hash.h"
 #include "render/film/render_pass.h"

@@ -1,6 +1,6 @@
 #pragma once
-// Small scenes in which every strategy has something to do. Lights and lobes are wide enough that every
-// strategy finds them often, for a test that waits for rare events finds nothing out.
+// Small scenes for tests of sampling strategies. Lights and lobes are wide enough that every strategy finds
+// them often, because rare events make tests weak.
 
 #include "render/render_testing.h"
 #include "support/textures.h"

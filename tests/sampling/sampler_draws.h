@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of the samplers share.
+// Shared by the tests of samplers.
 
 #include "sampling/sampler.h"
 

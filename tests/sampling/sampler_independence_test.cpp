@@ -1,4 +1,4 @@
-// Each number of a sampler is uniform, and numbers of different keys are independent. The pixels are the
+// Each number of a sampler is uniform, and numbers with different keys are independent; with pixels as
 // trials.
 
 #include "sampler_draws.h"

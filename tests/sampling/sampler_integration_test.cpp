@@ -1,4 +1,4 @@
-// Integrals by each sampler: without bias at any count, and with less error than by independent numbers.
+// Integration with each sampler: unbiased at any sample count, with less error than independent samples.
 
 #include "sampler_draws.h"
 #include "support/seed.h"

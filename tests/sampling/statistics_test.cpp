@@ -1,4 +1,4 @@
-// The tests of the tests: what support/statistics.h says of right and of wrong data.
+// Tests of support/statistics.h with correct and with wrong data.
 
 #include "support/seed.h"
 #include "support/statistics.h"

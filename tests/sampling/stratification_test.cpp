@@ -1,4 +1,4 @@
-// What is sure about a sampler's points, whatever the seed: one in each box.
+// Stratification of samplers for every seed: one point in each box.
 
 #include "sampler_draws.h"
 

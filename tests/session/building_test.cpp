@@ -1,4 +1,4 @@
-// Geometry that takes long to build: how far it is, and that nobody waits for what is out of date.
+// Geometry that takes long to build: its progress, and cancellation of outdated builds.
 
 #include "session/session_testing.h"
 #include "support/build_gate.h"
@@ -56,7 +56,7 @@ bool wait_until(Condition condition) {
   return true;
 }
 
-/// Until the document handed in last is being built.
+/// Waits until the last submitted document is being built.
 bool wait_for_building(const RenderSession& session, std::uint64_t generation) {
   return wait_until([&] {
     const SessionStatus status = session.status();
@@ -93,7 +93,7 @@ TEST(SessionBuilding, TheFirstOneMayBeOutOfDateToo) {
   EXPECT_EQ(session.built().scene->geometry().world().triangles.size(), 0u);
 }
 
-// Who flies through a scene that is being built would otherwise never see it.
+// Otherwise a scene would never appear while the user flies.
 TEST(SessionBuilding, AnotherCameraDoesNotCancelIt) {
   BuildGate gate(true);
   RenderSession session({.on_build = gate.hook()});
@@ -106,7 +106,7 @@ TEST(SessionBuilding, AnotherCameraDoesNotCancelIt) {
   EXPECT_EQ(session.status().builds_cancelled, 0u);
 }
 
-// A dragged object is shown at every place, and what comes of it in the end is the headless image.
+// A dragged object is shown at every position, and the final picture is the headless image.
 TEST(SessionBuilding, WhatMovesIsShownSoonAndBuiltWellInTheEnd) {
   RenderSession session;
   Document large = large_document(150);
@@ -134,7 +134,7 @@ TEST(SessionBuilding, WhatMovesIsShownSoonAndBuiltWellInTheEnd) {
   EXPECT_EQ(session.status().restarts, 4u) << "building well is no edit";
 }
 
-// A camera that moves meanwhile neither loses the better geometry nor waits for it.
+// Moving the camera meanwhile neither loses the better geometry nor waits for it.
 TEST(SessionBuilding, EditsWhileItIsBuiltWellEndInTheHeadlessImage) {
   RenderSession session;
   Document large = large_document(150);
@@ -150,8 +150,8 @@ TEST(SessionBuilding, EditsWhileItIsBuiltWellEndInTheHeadlessImage) {
   EXPECT_TRUE(session.latest()->linear == headless(large));
 }
 
-// Undone while the better geometry of the edit is still to come: the fast one of what was there before has to
-// be built well, too.
+// Undo while the edit's better geometry is being built: the fast geometry of the previous state must be
+// improved, too.
 TEST(SessionBuilding, AnUndoneMoveEndsInTheHeadlessImage) {
   RenderSession session;
   const Document large = large_document(150);
@@ -191,7 +191,7 @@ TEST(SessionBuilding, ShareGrows) {
   EXPECT_GT(steps, 1);
 }
 
-// Flying through a scene costs what rendering it costs.
+// Flying through a scene builds no geometry.
 TEST(SessionBuilding, ACameraMoveBuildsNothing) {
   int builds = 0; // written by the render thread, read while it rests
   RenderSession session({.on_build = [&](const Progress&) { ++builds; }});

@@ -1,4 +1,4 @@
-// A session that denoises: beside the render, never instead of it.
+// Denoising in a session, concurrently with the render.
 
 #include "session/session_testing.h"
 

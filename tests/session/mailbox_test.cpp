@@ -1,4 +1,4 @@
-// What the user wants and what the render thread is told of it.
+// Requests, and what the render thread gets of them.
 
 #include "session/mailbox.h"
 #include "support/scenes.h"

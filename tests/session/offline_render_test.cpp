@@ -1,4 +1,4 @@
-// The headless render: when it stops, and that portions do not show in the result.
+// The headless render: stopping criteria, and independence of the result from the passes.
 
 #include "core/error.h"
 #include "core/progress.h"
@@ -36,7 +36,7 @@ TEST(OfflineRender, StopsAtTheTimeWithinTheFirstPassAndFillsWhatIsMissing) {
   if (r.spp > 0) GTEST_SKIP() << "this machine renders 4 million pixels in the time";
   EXPECT_FALSE(r.interrupted);
   EXPECT_GT(r.missing, 0);
-  // However much was rendered: a pixel is empty only where the one that stands for its block is.
+  // For any amount of work: a pixel is empty only if the one that represents its block is.
   int wrong = 0;
   for (int y = 0; y < 2048; ++y)
     for (int x = 0; x < 2048; ++x)
@@ -69,7 +69,7 @@ TEST(OfflineRender, RefusesToRunForEver) {
   Document d = test::cornell_flush(8, 8, 0, false).document;
   try {
     render_document(d);
-    FAIL() << "it has nothing to stop at";
+    FAIL() << "it has no stopping criterion";
   } catch (const Error& e) { EXPECT_EQ(e.code(), ExitCode::usage); }
 }
 

@@ -1,5 +1,5 @@
-// The interactive engine: what restarts, what does not, and that its picture is the headless one. Waits are
-// for events, with limits only against hanging for ever.
+// The interactive engine: what restarts it, and that its picture is the headless one. Waits are for events,
+// with limits only against hanging.
 
 #include "session/session_testing.h"
 #include "support/materials.h"
@@ -33,8 +33,8 @@ TEST(RenderSession, PictureIsTheHeadlessRenderBitForBit) {
   }
 }
 
-// Each edit comes while the one before is far from its first full pass, and is shown all the same: coarse,
-// and whole.
+// Each edit comes long before the first full pass of the previous one, and yet has a picture: coarse, but
+// complete.
 TEST(RenderSession, DraggingShowsACoarseImageOfEveryEdit) {
   RenderSession session;
   Document d = small_cornell(0, 400, 300);
@@ -51,7 +51,7 @@ TEST(RenderSession, DraggingShowsACoarseImageOfEveryEdit) {
     }
     EXPECT_EQ(picture->frame->spp, 0);
     coarsest_seen |= picture->frame->coarseness == 8;
-    // The back wall is lit everywhere: no hole is left black.
+    // The back wall is lit everywhere: no pixel may be black.
     for (int x = 180; x < 220; ++x)
       EXPECT_GT(picture->frame->linear[80 * 400 + static_cast<std::size_t>(x)].x, 0);
     EXPECT_GE(session.status().first_image_ms, 0);
@@ -137,7 +137,7 @@ TEST(RenderSession, WaitsEndAndDestructionCancels) {
   RenderSession session;
   session.submit(d);
   EXPECT_FALSE(session.wait_finished(0.2));
-  // The destructor must come back; the test's own limit catches it if it does not.
+  // The destructor must return; otherwise the test's time limit fails.
 }
 
 TEST(RenderSession, PicksWhatIsUnderAPixel) {

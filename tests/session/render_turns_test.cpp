@@ -14,7 +14,7 @@ using Fairness = RenderTurns::Fairness;
 struct Comparison {
   explicit Comparison(std::vector<int> groups) : turns(groups) {
     for (std::size_t variant = 0; variant < groups.size();
-         ++variant) { // all are in it before any thread runs ahead
+         ++variant) { // all take part before any thread gets ahead
       turns.begin(static_cast<int>(variant), {}, stop);
       turns.end(static_cast<int>(variant));
     }

@@ -1,4 +1,4 @@
-// Pause, step, region, build quality: what the user holds back or asks for, and that no sample is lost by it.
+// Pause, step, region and build quality, without loss of samples.
 
 #include "session/session_testing.h"
 
@@ -51,8 +51,8 @@ TEST(SessionControl, AnEditWhilePausedShowsItsFirstPass) {
   }
 }
 
-// A pause may come at any moment of the render thread's loop: between testing whether to continue and saying
-// what phase it is, or after that. Tiny portions make each such moment likely.
+// A pause may come at any point of the render thread's loop: between the test whether to continue and the
+// update of the phase, or after that. Tiny passes make each case likely.
 TEST(SessionControl, EveryPauseIsReachedAndShowsEverySample) {
   RenderSession session({.threads = 1});
   session.submit(small_cornell(0, 2, 2));
@@ -116,8 +116,7 @@ TEST(SessionControl, ARegionBeforeTheFirstDocumentWaitsForIt) {
   EXPECT_EQ(session.latest()->spp, 2);
 }
 
-// Where a pass is not interrupted, each of these takes many minutes: the tests' time limit is what fails
-// then.
+// If a pass were not interrupted, each of these would take many minutes and exceed the tests' time limit.
 
 TEST(SessionControl, AnEditIsTakenInTheMiddleOfAPass) {
   RenderSession session;

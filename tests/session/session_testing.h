@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of sessions share: a small scene, waiting for its picture, and what that should be.
+// Shared by the tests of sessions: a small scene, waiting for its picture, and the expected picture.
 
 #include "session/offline_render.h"
 #include "session/render_session.h"
@@ -17,7 +17,7 @@ inline Document small_cornell(int spp = 4, int width = 61, int height = 43) {
   return cornell_flush(width, height, spp, true).document;
 }
 
-/// Samples that take long for any film size: the inside of glass that no ray leaves, without
+/// A scene whose samples take long for any film size: inside glass that no ray leaves, without Russian
 /// roulette.
 inline Document slow_document() {
   SceneMaker s(96, 96, 1);
@@ -35,11 +35,11 @@ inline std::vector<vec3> headless(const Document& document) {
   return render_document(document).film.image().pixels;
 }
 
-/// Hands the document in and waits until all of it is shown; of a paused session, its first pass.
+/// Submits the document and waits until it is finished; in a paused session, until its first pass is shown.
 inline ::testing::AssertionResult shows(RenderSession& session, const Document& document) {
   session.submit(document);
   if (session.wait_finished(kPatience)) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << "it did not get ready";
+  return ::testing::AssertionFailure() << "it did not finish";
 }
 
 } // namespace candela::test

@@ -1,4 +1,4 @@
-// Views of the samples that a session has, and its stops by noise and by convergence.
+// Views of a session's samples, and stopping by noise and by convergence.
 
 #include "render/film/film_view.h"
 #include "session/session_testing.h"

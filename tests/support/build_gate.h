@@ -1,6 +1,5 @@
 #pragma once
-// A session that is building for as long as a test wants: how long geometry really takes is the machine's
-// affair.
+// Keeps a session building for as long as a test needs, independent of the machine's speed.
 
 #include "core/progress.h"
 
@@ -11,7 +10,7 @@
 
 namespace candela::test {
 
-/// While it is closed, building goes on until it is cancelled. It outlives the session.
+/// While it is closed, building does not finish unless it is cancelled. It must outlive the session.
 class BuildGate {
 public:
   explicit BuildGate(bool closed) : closed_(closed) {}

@@ -30,7 +30,7 @@ namespace {
 
 double sin_theta(vec3 w) { return std::hypot(double(w.x), double(w.y)); }
 
-/// A lobe about the pole has all azimuths.
+/// A lobe about the pole covers all azimuths.
 double azimuth_width(vec3 peak, double width) {
   return sin_theta(peak) > 1e-6 ? std::min(width / sin_theta(peak), 10.0) : 10.0;
 }
@@ -90,7 +90,7 @@ double SphereBins::integrate_cell(const std::function<double(vec3)>& f, const Ce
   for (const Cell& part : parts) sum += gauss(f, part);
   if (std::abs(gauss(f, cell) - sum) <= tolerance || depth == 0) return sum;
   sum = 0;
-  // The errors of the four parts are hardly all of one sign.
+  // Errors of the four parts partly cancel.
   for (const Cell& part : parts) sum += integrate_cell(f, part, 0.5 * tolerance, depth - 1);
   return sum;
 }
@@ -131,8 +131,8 @@ DirectionTest test_directions(const SphereBins& bins, std::size_t count,
   result.pdf_integral = std::accumulate(expected.begin(), expected.end(), 0.0);
   expected.push_back(1 - result.pdf_integral);
   for (double& e : expected) e *= static_cast<double>(count);
-  // Quadrature may overlook a sliver of a bin above the horizon, and leaves a little of nothing where every
-  // draw succeeds: such bins go to the pool.
+  // Quadrature may miss a sliver of a bin above the horizon, and gives a small residue if every draw
+  // succeeds: such bins are pooled.
   for (double& e : expected) e = std::max(e, 1e-6);
   result.chi_square = chi_square_test(observed, expected);
   if (impossible > 0) result.chi_square.p_value = 0;

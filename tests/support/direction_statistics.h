@@ -19,8 +19,8 @@ public:
 
   std::size_t size() const { return static_cast<std::size_t>(rings_ * sectors_); }
   std::size_t index(vec3 w) const;
-  /// Of a function of unit directions over each bin, sr: adaptive Gauss-Legendre, absolute error of a bin
-  /// some `tolerance` (edges of the function within a bin are found by subdivision).
+  /// Integrals of a function of unit directions over each bin, sr: adaptive Gauss-Legendre with an absolute
+  /// error of about `tolerance` per bin (discontinuities are resolved by subdivision).
   std::vector<double> integrate(const std::function<double(vec3)>& f, double tolerance = 3e-6) const;
 
 private:
@@ -49,17 +49,16 @@ private:
   Spacing theta_on_side_, theta_beyond_, phi_; ///< phi counts from peak's azimuth
 };
 
-/// Of f over the whole sphere, sr; peak and width (as of SphereBins) say where most of it is.
+/// The integral of f over the sphere, sr; peak and width (as of SphereBins) locate its main part.
 double integrate_sphere(const std::function<double(vec3)>& f, vec3 peak = {0, 0, 1}, double width = 2);
 
 struct DirectionTest {
   ChiSquareResult chi_square;
-  double pdf_integral = 0; ///< the share of draws that should have succeeded
+  double pdf_integral = 0; ///< the expected share of successful draws
 };
 
-/// `draw(i)` gives the i-th of `count` independent directions, or nothing where sampling fails (a bin of its
-/// own); `pdf` is its density in 1/sr, integrating to at most 1; a draw
-/// where it is 0 gives p = 0.
+/// `draw(i)` gives the i-th of `count` independent directions, or nothing if sampling fails (counted in a bin
+/// of its own); `pdf` is its density in 1/sr, with an integral of at most 1. A draw with pdf 0 gives p = 0.
 DirectionTest test_directions(const SphereBins& bins, std::size_t count,
                               const std::function<std::optional<vec3>(std::size_t)>& draw,
                               const std::function<double(vec3)>& pdf);

@@ -1,11 +1,11 @@
 #pragma once
-// Which error something ends with.
+// The exit code of an action's error.
 
 #include "core/error.h"
 
 namespace candela::test {
 
-/// The code of the Error that the action throws; done if it throws none.
+/// The code of the Error that the action throws; `done` if it throws none.
 template <class Action>
 ExitCode code_of(Action action) {
   try {

@@ -1,5 +1,5 @@
 #pragma once
-// The values of materials by their keys, for tests that know what is there.
+// Values of materials by key, for tests.
 
 #include "materials/material.h"
 
@@ -20,7 +20,7 @@ inline bool has(const Material& material, std::string_view key) {
   return find_material_field(material_type(material), key) != nullptr;
 }
 
-/// Throws where the material's type has no such key.
+/// Throws if the material's type has no such key.
 inline void* value_of(const Material& material, std::string_view key) {
   const MaterialField* row = find_material_field(material_type(material), key);
   if (row == nullptr) throw std::out_of_range(std::string(key));
@@ -39,7 +39,7 @@ inline const float& number(const Material& material, std::string_view key) {
   return *static_cast<const float*>(value_of(material, key));
 }
 
-/// Where a parameter has a texture; of a key that the type has not, none.
+/// The texture use of a parameter; an unused one if the type has no such key.
 inline TextureUse& use_of(Material& material, std::string_view key = "diffuse") {
   static TextureUse none;
   none = {};

@@ -1,11 +1,11 @@
 #pragma once
-// Small scenes made in code, for tests that know their answer.
+// Small scenes defined in code, for tests with known results.
 
 #include "scene/document.h"
 
 namespace candela::test {
 
-/// Collects a scene; every function returns an index or *this so that scenes read as a list.
+/// Builds a scene; functions return an index or *this, for chaining.
 class SceneMaker {
 public:
   Document document;

@@ -1,5 +1,5 @@
 #pragma once
-// A folder of a test's own, gone when the test ends.
+// A temporary folder for a test, removed at its end.
 
 #include <cstdlib>
 #include <filesystem>

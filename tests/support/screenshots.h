@@ -1,12 +1,12 @@
 #pragma once
-// Pictures that the tests leave behind to be looked at.
+// Pictures that the tests write for inspection.
 
 #include <filesystem>
 #include <string>
 
 namespace candela::test {
 
-/// Where to write screenshots/<name> of the tests' build folder, wherever they are run.
+/// The path of screenshots/<name> in the tests' build folder, independent of the working folder.
 inline std::string screenshot_path(const std::string& name) {
   const std::filesystem::path folder = CANDELA_SCREENSHOTS;
   std::filesystem::create_directories(folder);

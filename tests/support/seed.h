@@ -1,6 +1,5 @@
 #pragma once
-// Statistical tests draw a fresh seed each run, so that no luck of one seed is kept for ever; a failure
-// prints it.
+// Statistical tests use a fresh seed in each run, so that they do not depend on one seed; failures print it.
 
 #include <cstdint>
 #include <string>

@@ -7,14 +7,14 @@ namespace candela {
 
 namespace {
 
-/// What an object's size is taken to be, to move it by a part of that.
+/// The size of an object, by a part of which it is moved.
 std::size_t triangles_of(const Instance& instance) {
   const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape);
   return mesh != nullptr ? (*mesh)->triangles.size() : 1;
 }
 
-/// The object with the most triangles: the hardest to move.
-Instance& hardest_object(SceneDesc& scene) {
+/// The object with the most triangles: moving it costs most.
+Instance& largest_object(SceneDesc& scene) {
   return *std::ranges::max_element(scene.instances, {}, triangles_of);
 }
 
@@ -62,7 +62,7 @@ bool can_edit(InputKind kind, const Document& document) {
 void apply_edit(InputKind kind, int step, Document& document) {
   SceneDesc& scene = document.scene;
   const bool there = step % 2 == 0;
-  const float factor = there ? 0.5f : 2.0f; // exact both ways
+  const float factor = there ? 0.5f : 2.0f; // both are exact in floats
   switch (kind) {
   case InputKind::camera:
   case InputKind::flight: break;
@@ -75,7 +75,7 @@ void apply_edit(InputKind kind, int step, Document& document) {
     break;
   case InputKind::setting: document.settings.sampler.seed = step + 1; break;
   case InputKind::object: {
-    mat4& m = hardest_object(scene).world_from_object;
+    mat4& m = largest_object(scene).world_from_object;
     m[3].y += (there ? 1.0f : -1.0f) / 64;
     break;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The script of `candela bench interactive`: a flight and edits that are the same in every run.
+// The input of `candela bench interactive`: a camera flight and edits, the same in every run.
 
 #include "core/math.h"
 #include "scene/document.h"
@@ -7,28 +7,27 @@
 namespace candela {
 
 enum class InputKind {
-  camera,   ///< one movement of the mouse that looks around, then a rest
-  flight,   ///< sixty movements a second without rest
-  material, ///< of a colour
-  light,    ///< of a light's or an emitter's strength
-  setting,  ///< of the seed, so that the work stays the same
-  object,   ///< of a transform: the geometry is built again
+  camera,   ///< one mouse movement that turns the camera, then a rest
+  flight,   ///< sixty mouse movements a second without rest
+  material, ///< a colour
+  light,    ///< the strength of a light or an emitter
+  setting,  ///< the seed, so that the work stays the same
+  object,   ///< a transform: the geometry is built again
 };
 inline constexpr InputKind kInputKinds[] = {InputKind::camera, InputKind::flight,  InputKind::material,
                                             InputKind::light,  InputKind::setting, InputKind::object};
 
 const char* to_string(InputKind kind);
 
-/// Where the mouse is at a step of the flight: a figure of eight about the window's middle that no two steps
-/// in a row spend at one place; framebuffer pixels.
+/// The mouse position at a step of the flight, framebuffer pixels: a figure of eight about the window's
+/// centre. Consecutive steps never have the same position.
 vec2 flight_position(int step, ivec2 window);
 
-/// Whether the scene has what the kind edits.
+/// Whether the scene has an object that the kind of input edits.
 bool can_edit(InputKind kind, const Document& document);
 
-/// The step-th edit of a kind, which is neither camera nor flight, of what the scene has most of its kind
-/// (can_edit() must hold). Steps go there and back: an even number of them leaves the scene as it was, but
-/// for the seed.
+/// The step-th edit of a kind other than camera and flight; can_edit() must hold. Odd steps undo even ones,
+/// so an even number of them restores the scene, except for the seed.
 void apply_edit(InputKind kind, int step, Document& document);
 
 } // namespace candela

@@ -18,12 +18,12 @@ namespace {
 
 constexpr double kInputSeconds = 1 / 60.0; // from one movement of a flight to the next
 constexpr double kLook = 0.25;             // how often to poll what sends no event
-/// Between a picture and the next input, which then comes at any moment between two frames of a window that
-/// refreshes slowly: these steps, modulo 1, fill the range evenly (the golden ratio's sequence).
+/// Spreads the delay between a picture and the next input, so that inputs fall evenly between two frames of a
+/// slow window: multiples of the golden ratio modulo 1 fill the range evenly.
 constexpr double kRest = 0.05, kRestSpread = 0.1;
 constexpr double kGoldenStep = 0.6180339887498949;
 
-// What makes work feel direct on a machine without a GPU.
+// Targets for interaction that feels direct on a machine without a GPU.
 constexpr double kFirstImageShare = 1 / 20.0; // of a pass over all pixels
 constexpr double kFirstImageFloor = 15;       // ms
 constexpr double kFrameTail = 2;              // 99th percentile over the median
@@ -35,7 +35,7 @@ double clock_seconds(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// CPU time of all programs on this machine; 0 where it is not told.
+/// CPU time of all programs on this machine; 0 if unknown.
 double machine_seconds() {
   std::ifstream file("/proc/stat");
   std::string cpu;
@@ -131,7 +131,7 @@ double InteractionBench::advance(Viewer& viewer) {
     step_ = 0;
     if (moves_mouse(kind())) {
       const vec2 at = flight_position(0, viewer.framebuffer());
-      viewer.handle(MouseMoved{at + vec2(0, 40)}); // far enough to be no click
+      viewer.handle(MouseMoved{at + vec2(0, 40)}); // too far for a click
       viewer.handle(MouseButtonChanged{MouseButton::left, true});
       viewer.handle(MouseMoved{at});
     }
@@ -158,7 +158,7 @@ double InteractionBench::advance(Viewer& viewer) {
   case Stage::refine:
     report_progress(1 - (due_ - now) / plan_.seconds, "refining");
     if (now < due_) return std::min(due_ - now, kLook);
-    if (status.rays.samples == samples_before_) return kLook; // not one pass has ended
+    if (status.rays.samples == samples_before_) return kLook; // no pass has ended yet
     result_.refining = bill(viewer) - before_;
     result_.samples_per_second =
         static_cast<double>(status.rays.samples - samples_before_) / result_.refining.wall;
@@ -171,8 +171,8 @@ double InteractionBench::advance(Viewer& viewer) {
   return -1;
 }
 
-/// The next input of this kind once it is due: in a flight at its time, else some time after all pictures of
-/// the one before.
+/// The next input of this kind once it is due: at fixed times in a flight, else some time after the last
+/// picture of the previous input.
 double InteractionBench::play(Viewer& viewer) {
   const double now = elapsed();
   const bool flies = kind() == InputKind::flight;
@@ -194,7 +194,7 @@ double InteractionBench::play(Viewer& viewer) {
         [kind = kind(), step = step_](Document& document) { apply_edit(kind, step, document); }});
   ++step_;
   resting_ = false;
-  due_ = std::max(due_ + kInputSeconds, now); // a user does not wait, but does not hurry either
+  due_ = std::max(due_ + kInputSeconds, now); // after a delay, no inputs are made up for
   return flies ? kInputSeconds : kLook;
 }
 

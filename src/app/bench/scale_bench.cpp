@@ -56,8 +56,8 @@ void set_size(Document& document, ivec2 size) {
   document.settings.film.height = size.y;
 }
 
-/// relMSE of one render by two of an eighth of the size that differ in their seed alone: stratified samples
-/// do better than the variance among them lets expect.
+/// relMSE of one render, from two renders at an eighth of the size with different seeds: stratified samples
+/// have a lower error than their variance predicts.
 double pair_relmse(Document document, ivec2 size, const OfflineOptions& options) {
   set_size(document, glm::max(size / 8, ivec2(16)));
   Image images[2];
@@ -68,10 +68,10 @@ double pair_relmse(Document document, ivec2 size, const OfflineOptions& options)
   Image mean = images[0];
   for (std::size_t i = 0; i < mean.pixels.size(); ++i)
     mean.pixels[i] = 0.5f * (mean.pixels[i] + images[1].pixels[i]);
-  return 2 * relative_mse(images[0].pixels, mean.pixels); // what differs from the mean of two is half of it
+  return 2 * relative_mse(images[0].pixels, mean.pixels); // the mean of two has half the variance of one
 }
 
-// The members by name, for both ways through JSON.
+// The members by name, for writing and reading JSON.
 template <class Result, class F>
 void for_each_member(Result& r, F f) requires std::same_as<std::remove_const_t<Result>, ScaleResult> {
   f("name", r.name);
@@ -150,7 +150,7 @@ ScaleResult measure_scene(const SceneOptions& options, const std::string& name, 
   Film film(size.x, size.y);
   const std::atomic<bool> never{false};
   std::uint32_t sample = 0;
-  /// Of one more sample of every pixel.
+  /// Seconds of one more sample of every pixel.
   auto pass_seconds = [&](int threads) {
     PassOptions pass;
     pass.threads = threads;

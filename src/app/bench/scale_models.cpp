@@ -12,8 +12,8 @@ namespace candela {
 
 namespace {
 
-// The ground reaches from kNear to kFar along z and kHalfWidth to either side. Its cells are smallest near
-// the middle of the near edge, where the camera stands: that much smaller than the mean.
+// The ground extends from kNear to kFar along z and kHalfWidth to either side. Its cells are smallest near
+// the middle of the near edge, where the camera is: by this factor smaller than the mean.
 constexpr double kNear = 3, kFar = -21, kHalfWidth = 17;
 constexpr double kNearScale = 0.25, kCentralScale = 0.3;
 constexpr std::uint32_t kBoulders = 48;
@@ -24,14 +24,14 @@ double smooth_step(double lo, double hi, double x) {
   return t * t * (3 - 2 * t);
 }
 
-/// Where the ground has the uv; v grows towards -z.
+/// The ground's point (x, z) at uv; v grows towards -z.
 glm::dvec2 ground_point(glm::dvec2 uv) {
   const double s = 2 * uv.x - 1, t = uv.y;
   return {kHalfWidth * s * (kCentralScale + (1 - kCentralScale) * s * s),
           kNear + (kFar - kNear) * t * (kNearScale + (1 - kNearScale) * t)};
 }
 
-/// The larger side of a cell there, if there are so many in a row.
+/// The larger side of the cell there, of a ground with so many cells in a row.
 double cell_size(glm::dvec2 uv, double cells) {
   const double s = 2 * uv.x - 1, t = uv.y;
   return std::max(2 * kHalfWidth * (kCentralScale + 3 * (1 - kCentralScale) * s * s),
@@ -57,7 +57,7 @@ Texels empty_texture(int size) {
   return out;
 }
 
-/// The two triangles of a cell between its corners; the shorter diagonal parts them.
+/// The two triangles of a cell, split along the shorter diagonal.
 void add_cell(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
   const auto& p = mesh.positions;
   if (length_squared(p[a] - p[c]) <= length_squared(p[b] - p[d])) {
@@ -94,7 +94,7 @@ void add_ground(Mesh& mesh, std::uint32_t cells) {
     }
 }
 
-/// A flat place in the valley, by number.
+/// The index-th flat place in the valley.
 glm::dvec2 boulder_place(std::uint32_t index) {
   constexpr double kReach = 0.5, kSteepest = 0.35, kStep = 0.05;
   glm::dvec2 p(0);
@@ -108,7 +108,7 @@ glm::dvec2 boulder_place(std::uint32_t index) {
   return p;
 }
 
-/// Half space n.d <= distance, for the faces of a stone.
+/// A face of a stone: the half space n.d <= distance.
 struct Cut {
   glm::dvec3 normal;
   double distance;
@@ -140,21 +140,21 @@ public:
 private:
   static constexpr std::uint32_t kCuts = 16;
   std::uint32_t seed_;
-  int octaves_; ///< none so fine that cells would catch it by chance
+  int octaves_; ///< no finer than the cells can represent
   std::array<Cut, kCuts> cuts_;
 };
 
 } // namespace
 
 double mountain_height(glm::dvec2 p, double spacing) {
-  // Octaves count for less where the coarser ones are steep: slopes are smooth, crests are rough, as erosion
-  // leaves them (after I. Quilez, "Value noise derivatives", 2008).
+  // Octaves are weaker where the coarser ones are steep, so that slopes are smooth and crests rough, like
+  // eroded terrain (after I. Quilez, "Value noise derivatives", 2008).
   constexpr int kOctaves = 13;
   constexpr double kFrequency = 0.13;
   glm::dvec2 q = p * kFrequency + glm::dvec2(3.7, 1.9), slope(0);
   double sum = 0, strength = 1;
   for (int i = 0; i < kOctaves; ++i) {
-    // Faded out about two samples a wave, below which there would be chance spikes (Nyquist).
+    // Faded out near two samples a wave, the Nyquist limit: finer octaves would alias.
     const double samples_a_wave = spacing > 0 ? strength / (kFrequency * spacing) : 4;
     const double share = smooth_step(1.5, 3, samples_a_wave);
     if (share <= 0) break;
@@ -162,8 +162,8 @@ double mountain_height(glm::dvec2 p, double spacing) {
     slope += n.gradient * (0.7 * share);
     sum += share * strength * n.value / (1 + glm::dot(slope, slope));
     strength *= 0.5;
-    q = 2.0 *
-        glm::dvec2(0.8 * q.x + 0.6 * q.y, 0.8 * q.y - 0.6 * q.x); // turned, so that the lattices do not show
+    q = 2.0 * glm::dvec2(0.8 * q.x + 0.6 * q.y,
+                         0.8 * q.y - 0.6 * q.x); // rotated, so that the octaves' lattices do not align
   }
   const double valley = smooth_step(1.5, 13, glm::length(p));
   return (1.2 + 5 * valley) * sum + 2.2 * valley;
@@ -198,12 +198,12 @@ Texels mountain_texture(int size) {
   const glm::dvec3 grass(0.075, 0.09, 0.03), dry(0.17, 0.14, 0.06), dark_rock(0.13, 0.115, 0.1),
       light_rock(0.3, 0.265, 0.23), scree(0.26, 0.235, 0.205), snow(0.82, 0.84, 0.87);
   const double step = 1.0 / size;
-  /// Of the centre of a texel, or of its corner towards the lower left.
+  /// Texture coordinates of a texel's centre, or of its lower left corner.
   auto place = [&](int x, int y, double offset) {
     return ground_point({(x + offset) * step, 1 - (y + 1 - offset) * step});
   };
   const auto side = static_cast<std::size_t>(size) + 1;
-  std::vector<float> corners(side * side); // heights; slopes are differences of neighbours
+  std::vector<float> corners(side * side); // heights; slopes are differences between neighbours
 #pragma omp parallel for schedule(dynamic, 4)
   for (int y = -1; y < size; ++y)
     for (int x = 0; x <= size; ++x)

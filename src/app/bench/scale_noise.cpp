@@ -16,7 +16,7 @@ double fade_slope(double t) { return 30 * t * t * (t * (t - 2) + 1); }
 /// A component of a lattice point's gradient, -1..1.
 double signed_unit(std::uint32_t bits) { return 2 * static_cast<double>(to_unit_float(bits)) - 1; }
 
-constexpr double kScale2 = 1.6, kScale3 = 1.5; ///< bring the values to about -1..1
+constexpr double kScale2 = 1.6, kScale3 = 1.5; ///< normalise the values to about -1..1
 
 } // namespace
 

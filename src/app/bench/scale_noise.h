@@ -17,11 +17,11 @@ struct NoiseSample {
 NoiseSample gradient_noise(glm::dvec2 p, std::uint32_t seed);
 double gradient_noise(glm::dvec3 p, std::uint32_t seed);
 
-/// Octaves of it, each of half the size and half the strength.
+/// A sum of octaves, each of half the wavelength and half the amplitude.
 double fractal_noise(glm::dvec2 p, int octaves, std::uint32_t seed);
 double fractal_noise(glm::dvec3 p, int octaves, std::uint32_t seed);
 
-/// In [0, 1), by a number.
+/// A random number in [0, 1) for an index.
 double hashed_unit(std::uint32_t index, std::uint32_t seed);
 
 } // namespace candela

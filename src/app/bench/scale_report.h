@@ -1,5 +1,5 @@
 #pragma once
-// What `candela bench scale` says of its measurements.
+// The report of `candela bench scale`.
 
 #include "app/bench/scale_bench.h"
 #include "app/figures/plot.h"
@@ -12,22 +12,22 @@
 
 namespace candela {
 
-/// Everything of one run.
+/// The results of one run.
 struct ScaleReport {
   std::vector<ScaleResult> scenes;
-  std::vector<ScaleResult> landscapes; ///< the same picture from ever more distinct triangles
-  std::vector<ScaleResult> stones;     ///< the same picture from instances of ever finer meshes
+  std::vector<ScaleResult> landscapes; ///< the same picture with increasing numbers of distinct triangles
+  std::vector<ScaleResult> stones;     ///< the same picture with instances of increasingly fine meshes
   std::optional<ScalePicture> picture;
-  std::array<double, 2> load{}; ///< average number of running threads of the minute before, and of the last
+  std::array<double, 2> load{}; ///< load average before and after the run
 };
 
 enum class TableFormat { text, markdown };
 
-/// A row a scene: triangles, seconds to read, to build, to the first image; bytes; samples a second by one
-/// thread and by all, and their ratio. Below it what was said of the picture, if there is one.
+/// A row per scene: triangles, seconds to read, to build, to the first image; bytes; samples a second by one
+/// thread and by all, and their ratio. The text about the picture follows, if there is one.
 std::string scale_tables(const ScaleReport& report, TableFormat format);
 
-/// Samples a second over the logarithm of the number of placed triangles.
+/// Samples a second over the number of placed triangles, on a logarithmic axis.
 Plot scale_plot(const ScaleReport& report);
 
 std::string scale_json(const ScaleReport& report);

@@ -120,7 +120,7 @@ int run_interactive_bench(const InteractiveBenchOptions& o) {
 
   ViewerOptions viewer;
   viewer.document = std::move(loaded.document);
-  viewer.document.settings.stop = {.spp = 0, .time = 0, .noise = 0}; // it refines as long as is measured
+  viewer.document.settings.stop = {.spp = 0, .time = 0, .noise = 0}; // it never stops refining
   viewer.scene_path = o.scene.path;
   viewer.threads = o.scene.threads;
   viewer.reading = {o.scene.allow_outside};

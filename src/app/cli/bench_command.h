@@ -1,5 +1,5 @@
 #pragma once
-// `candela bench interactive`: input latency, and the shares of the cores meanwhile.
+// `candela bench interactive`: input latency and CPU usage.
 
 #include "app/console/scene_options.h"
 
@@ -7,7 +7,7 @@ namespace candela {
 
 struct InteractiveBenchOptions {
   SceneOptions scene;
-  std::optional<std::string> size; ///< WxH of the window; else 1280x720
+  std::optional<std::string> size; ///< WxH of the window; default 1280x720
   std::optional<int> repeats;
   std::optional<double> seconds;
   std::optional<std::string> json; ///< file to write
@@ -16,8 +16,8 @@ struct InteractiveBenchOptions {
   bool quiet = false;
 };
 
-/// Measures in a window, or in memory where there is no display; prints a table with the targets, met or
-/// missed. Returns 0 for any measurement.
+/// Measures in a window, or off screen if there is no display; prints a table that says which targets are
+/// met. Returns 0 whether they are or not.
 int run_interactive_bench(const InteractiveBenchOptions& options);
 
 } // namespace candela

@@ -31,33 +31,33 @@ void add_threads(CLI::App& command, int& threads,
   add_number(command, "--threads", threads, range(0, 1024), help);
 }
 
-/// A file for what was measured.
+/// The option that names a file for the measurements.
 void add_json(CLI::App& command, const std::string& name, std::optional<std::string>& path) {
   command.add_option_function<std::string>(
       name, [&path](const std::string& given) { path = given == "-" ? "/dev/stdout" : given; },
-      "Write what was measured to this file (JSON); -: stdout");
+      "Write the measurements to this file (JSON); -: stdout");
 }
 
-/// An option that is a setting's, with its range.
+/// An option for one setting, with the setting's range.
 template <class T>
 void add_setting(CLI::App& command, const std::string& name, T& target, std::string_view key,
                  const std::string& help) {
   add_number(command, name, target, *find_setting(key), help);
 }
 
-/// The settings that have an option of their own are applied like `--set`, in the order given.
+/// Options for single settings are applied like `--set`, in the order given.
 void add_common_options(CLI::App& command, SceneOptions& o) {
   command.add_option("scene", o.path, fmt::format("Scene file ({} {})", scene_endings(" "), kJobEnding));
   command.add_option("--set", o.settings, "Change a setting, KEY=VALUE; see `candela settings`")
       ->take_all()
       ->allow_extra_args(false);
-  command.add_option("--bookmark", o.bookmark, "Look through the camera of this bookmark of the scene");
+  command.add_option("--bookmark", o.bookmark, "Use the camera of this bookmark of the scene");
   command.add_flag("--allow-outside", o.allow_outside,
                    "Let the scene read files outside its own folder tree");
   add_threads(command, o.threads);
 }
 
-/// The innermost command that was named.
+/// The innermost subcommand on the command line.
 const CLI::App& chosen(const CLI::App& app) {
   const auto commands = app.get_subcommands();
   return commands.empty() ? app : chosen(*commands.front());
@@ -69,7 +69,7 @@ std::string full_name(const CLI::App& command) {
                                          : full_name(*command.get_parent()) + " " + command.get_name();
 }
 
-/// The error for an argument that is none of the command's.
+/// The error for an argument that the command does not have.
 Error unexpected(const CLI::App& app) {
   const CLI::App& command = chosen(app);
   const std::string argument = app.remaining(true).front(), name = full_name(command);
@@ -79,7 +79,7 @@ Error unexpected(const CLI::App& app) {
     for (const std::string& long_name : o->get_lnames()) known.push_back("--" + long_name);
   std::string near =
       option ? nearest_name(argument, std::vector<std::string_view>(known.begin(), known.end())) : "";
-  // `candela rendr box.json`: the command was taken for the scene.
+  // `candela rendr box.json`: the mistyped command was parsed as the scene.
   if (&command == &app && app.count("scene") > 0) {
     std::vector<std::string_view> commands;
     const auto all = app.get_subcommands([](const CLI::App*) { return true; });
@@ -98,7 +98,8 @@ int run(int argc, char** argv) {
   CLI::App app{"Candela, an interactive progressive path tracer", "candela"};
   app.set_version_flag("--version", "candela " CANDELA_VERSION);
   app.require_subcommand(0, 1);
-  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast); // as shells' aliases expect
+  app.option_defaults()->multi_option_policy(
+      CLI::MultiOptionPolicy::TakeLast); // so that shell aliases can be overridden
 
   SceneOptions view_options;
   add_common_options(app, view_options); // `candela SCENE` is `candela view SCENE`
@@ -106,7 +107,7 @@ int run(int argc, char** argv) {
   add_common_options(*view, view_options);
   bool no_preferences = false;
   for (CLI::App* command : {static_cast<CLI::App*>(&app), view})
-    command->add_flag("--no-preferences", no_preferences, "Neither read nor write what the window remembers");
+    command->add_flag("--no-preferences", no_preferences, "Neither read nor write the preferences file");
 
   RenderOptions render_options;
   auto* render = app.add_subcommand("render", "Render a scene to files");
@@ -146,20 +147,20 @@ int run(int argc, char** argv) {
   compare->add_option("--diff", diff, "Write a picture of the differences");
 
   SceneOptions info_options;
-  auto* info = app.add_subcommand("info", "Say what is in a scene, as JSON");
+  auto* info = app.add_subcommand("info", "Describe a scene, as JSON");
   add_common_options(*info, info_options);
   info->get_option("scene")->required();
 
   GalleryOptions gallery_options;
-  auto* gallery = app.add_subcommand("gallery", "Make the figures of a gallery file");
-  gallery->add_option("name", gallery_options.names, "Figures to make; none: all");
+  auto* gallery = app.add_subcommand("gallery", "Render the figures of a gallery file");
+  gallery->add_option("name", gallery_options.names, "Figures to render; none: all");
   gallery->add_option("-o,--output", gallery_options.folder, "Folder that the pictures go to");
   gallery->add_option("--file", gallery_options.file, "Gallery file; else the one that comes with Candela");
   add_number(*gallery, "--spp-scale", gallery_options.spp_scale, range(1e-6, 1e6),
              "Multiplies all samples a pixel");
   add_threads(*gallery, gallery_options.threads);
-  gallery->add_flag("--quick", gallery_options.quick, "Half the size, a sixteenth of the samples");
-  gallery->add_flag("--list", gallery_options.list, "Only say which figures there are");
+  gallery->add_flag("--quick", gallery_options.quick, "Render half the size with a sixteenth of the samples");
+  gallery->add_flag("--list", gallery_options.list, "Only list the figures");
   gallery->add_flag("--quiet", gallery_options.quiet, "Say nothing but warnings and errors");
 
   SceneOptions convert_options;
@@ -189,11 +190,11 @@ int run(int argc, char** argv) {
   interactive->add_option("--size", bench_options.size, "Size of the window, WxH; else 1280x720");
   add_number(*interactive, "--repeats", bench_options.repeats, range(1, 1000), "Inputs of each kind");
   add_number(*interactive, "--seconds", bench_options.seconds, range(0.1, 600, "s"),
-             "Of flight, and of refining undisturbed");
+             "Seconds of flight, and of refining without input");
   add_json(*interactive, "--json", bench_options.json);
-  interactive->add_flag("--short", bench_options.short_run, "A small window and few inputs: does it work?");
-  interactive->add_flag("--offscreen", bench_options.offscreen,
-                        "Draw into memory even if there is a display");
+  interactive->add_flag("--short", bench_options.short_run,
+                        "A small window and few inputs, to test that it works");
+  interactive->add_flag("--offscreen", bench_options.offscreen, "Draw off screen even if there is a display");
   interactive->add_flag("--quiet", bench_options.quiet, "Say nothing but warnings and errors");
 
   ScaleBenchOptions scale_options;
@@ -219,7 +220,7 @@ int run(int argc, char** argv) {
              "Its samples a pixel; else 64");
   add_json(*scale, "--json", scale_options.json);
   scale->add_flag("--markdown", scale_options.markdown, "The tables in Markdown");
-  scale->add_flag("--short", scale_options.short_run, "Tiny scenes and pictures: does it work?");
+  scale->add_flag("--short", scale_options.short_run, "Tiny scenes and pictures, to test that it works");
   scale->add_flag("--quiet", scale_options.quiet, "Say nothing but warnings and errors");
 
   try {
@@ -232,7 +233,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ExtrasError&) { throw unexpected(app); } catch (const CLI::ParseError& e) {
     throw usage_error("command line", e.what(), fmt::format("see `{} --help`", full_name(chosen(app))));
   }
-  // Which would be the Cornell box, as in `candela view`.
+  // An empty name would mean the Cornell box, as in `candela view`.
   for (const auto& [command, options] :
        {std::pair{render, &render_options.scene}, {info, &info_options}, {convert, &convert_options}})
     if (command->parsed() && options->path.empty())

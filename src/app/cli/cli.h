@@ -1,5 +1,5 @@
 #pragma once
-// The command line: what the words mean. Each command's work is in a file of its own.
+// Parsing of the command line. Each command is implemented in a file of its own.
 
 namespace candela {
 

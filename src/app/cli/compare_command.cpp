@@ -11,7 +11,7 @@
 namespace candela {
 
 int run_compare(const std::string& a, const std::string& b, const std::optional<std::string>& diff_path) {
-  // Before the work, so that a mistyped name costs none.
+  // Checked first, so that a mistyped name costs no time.
   if (diff_path && is_linear_format(image_format_of(*diff_path)))
     throw usage_error(fmt::format("--diff {}", *diff_path), "the differences are an 8-bit picture",
                       "use .png, .jpg or .ppm");

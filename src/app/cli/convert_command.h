@@ -4,7 +4,8 @@
 
 namespace candela {
 
-/// Writes any scene that can be read as Candela JSON; says on stderr what was copied beside it.
+/// `candela convert`: writes any readable scene as Candela JSON; lists on stderr the files that were copied
+/// next to it.
 int run_convert(const SceneOptions& options, const std::string& output);
 
 } // namespace candela

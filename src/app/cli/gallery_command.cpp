@@ -26,14 +26,14 @@ namespace {
 
 constexpr int kQuickSize = 2;
 constexpr float kQuickSpp = 1.0f / 16;
-/// The reference's random numbers are others than the panels', or their errors would be correlated.
+/// The reference has a seed of its own: otherwise its error would be correlated with the panels'.
 constexpr int kReferenceSeed = 0x5eed;
 
 struct Rendering {
   Image image;
   RgbPicture picture; ///< as it is displayed
-  int spp = 0;        ///< on average, where adaptive sampling spread them
-  double seconds = 0; ///< with the denoiser's
+  int spp = 0;        ///< the average with adaptive sampling
+  double seconds = 0; ///< including the denoiser's
   bool denoised = false;
 };
 
@@ -46,7 +46,7 @@ class GalleryMaker {
 public:
   explicit GalleryMaker(const GalleryOptions& options) : options_(options), bar_(options.quiet) {}
 
-  /// How it ended: a figure that cannot be written does not cost the others.
+  /// Collected, because a figure that cannot be written must not end the others.
   ExitCode make(const std::vector<const GalleryFigure*>& figures) {
     std::vector<PlannedOutput> outputs;
     for (const GalleryFigure* figure : figures) outputs.push_back({"gallery", path_of(*figure)});
@@ -99,7 +99,7 @@ private:
 
   Document reference_of(const GalleryFigure& figure) {
     GalleryPanel panel = figure.panels[0];
-    // Of the panels' settings only what they share: what is left of one when its label's own are taken away.
+    // The settings that all panels share: those of one panel without its own.
     std::erase_if(panel.settings, [&](const std::string& s) {
       return std::ranges::any_of(figure.panels, [&](const GalleryPanel& other) {
         return std::ranges::find(other.settings, s) == other.settings.end();
@@ -162,7 +162,8 @@ private:
     if (source.reference) reference = render(source, reference_of(source));
     Figure figure;
     figure.title = source.title;
-    if (options_.quick && source.size.x > 0) figure.picture_width = source.size.x; // laid out as it will be
+    if (options_.quick && source.size.x > 0)
+      figure.picture_width = source.size.x; // the layout of the full figure
     for (Box box : source.details) {
       if (options_.quick)
         box = {box.x / kQuickSize, box.y / kQuickSize, std::max(box.width / kQuickSize, 1),
@@ -193,7 +194,7 @@ private:
                           std::nullopt});
       if (source.difference) differences.emplace_back();
     }
-    // Row by row: the pictures, then the differences under them.
+    // Row by row: pictures, then their differences below.
     const std::size_t columns =
         source.columns > 0 ? static_cast<std::size_t>(source.columns) : pictures.size();
     figure.columns = static_cast<int>(std::min(columns, pictures.size()));
@@ -215,7 +216,7 @@ private:
       for (int spp : source.plot->spp) {
         Document document = document_of(source, panel);
         document.settings.stop.spp = scaled_spp(spp);
-        if (document.settings.stop.spp == last) continue; // scaled down, some are the same
+        if (document.settings.stop.spp == last) continue; // after scaling, some counts are equal
         last = document.settings.stop.spp;
         const Rendering made = render(source, document);
         series.points.push_back({source.plot->over_seconds ? made.seconds : static_cast<double>(made.spp),

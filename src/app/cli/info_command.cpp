@@ -13,14 +13,14 @@ namespace candela {
 
 namespace {
 
-/// As short as it reads back: 548.8, not 548.7999877929688, which JSON's doubles would make of a float.
+/// The shortest decimal that reads back to the float: 548.8 rather than 548.7999877929688.
 nlohmann::ordered_json number_json(float x) {
   return std::isfinite(x) ? nlohmann::ordered_json::parse(fmt::format("{}", x)) : nlohmann::ordered_json();
 }
 
 nlohmann::ordered_json vector_json(vec3 v) { return {number_json(v.x), number_json(v.y), number_json(v.z)}; }
 
-/// What of the camera decides its picture, whichever kind it is.
+/// The camera's values that affect its picture.
 nlohmann::ordered_json camera_json(const Document& document) {
   const Camera& camera = document.scene.camera;
   nlohmann::ordered_json out = {{"projection", field_text(*find_setting("camera.projection"), document)},

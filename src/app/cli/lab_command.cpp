@@ -33,7 +33,7 @@ const Field<RunOptions> kStreamsField = {
      "Independent repetitions, each a pixel of its own; the standard error is then from how they scatter"},
     [](RunOptions& o) -> void* { return &o.streams; }};
 
-/// Texts given for the rows of field tables, by option name ("--cone-angle").
+/// Values given for rows of field tables, by option name ("--cone-angle").
 using Texts = std::map<std::string, std::string>;
 
 std::string option_name(std::string_view key) {
@@ -50,7 +50,7 @@ template <class Owner>
 void read_field(const Field<Owner>& row, Owner& owner, const Texts& texts, const std::string& name) {
   const std::string& text = texts.at(name);
   if (text.empty()) return;
-  FieldInfo named = row; // in messages, as it was typed
+  FieldInfo named = row; // messages show the key as it was typed
   named.key = name;
   field_from_text(named, row.address(owner), text);
 }
@@ -77,7 +77,7 @@ void run_to_end(Lesson& lesson) {
   bar.finish(fmt::format("{} samples in {:.3f} s", lesson.done(), seconds.count()));
 }
 
-/// No lesson was named, or none of this name.
+/// The error for a missing or unknown lesson name.
 Error unknown_lesson(const std::vector<std::string>& named) {
   std::vector<std::string_view> names;
   for (const LessonInfo& info : lessons()) names.push_back(info.name);
@@ -89,7 +89,7 @@ Error unknown_lesson(const std::vector<std::string>& named) {
   return usage_error(fmt::format("lab {}", named.front()), "there is no such lesson", remedy);
 }
 
-/// Of every sampler.
+/// The discrepancy of every sampler.
 std::vector<DiscrepancyCurve> discrepancy_curves(const PointsOptions& options, SampleSource source,
                                                  std::uint32_t count) {
   const auto samplers = find_setting("sampler.type")->choices;
@@ -191,7 +191,7 @@ LabCommand::LabCommand(CLI::App& program) : options_(std::make_unique<Options>()
   Options& o = *options_;
   o.lab = program.add_subcommand("lab", "Monte Carlo lessons on the renderer's own samplers and densities");
   o.lab->require_subcommand(0, 1);
-  o.lab->allow_extras(); // a mistyped lesson is told the names of all
+  o.lab->allow_extras(); // so that the error for a mistyped lesson can list all names
   for (const LessonInfo& info : lessons()) {
     Options::Lesson& lesson = o.lessons[info.name];
     lesson.command = o.lab->add_subcommand(std::string(info.name), std::string(info.title));

@@ -9,7 +9,7 @@ class App;
 
 namespace candela {
 
-/// The command's options, made from the lessons' field tables, and the command itself.
+/// The command, whose options come from the lessons' field tables.
 class LabCommand {
 public:
   /// Adds `lab` to the program's commands; `program` must outlive this.

@@ -33,7 +33,7 @@ std::atomic<bool> stop_requested{false};
 volatile std::sig_atomic_t stop_signal = 0;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
-/// The second one does not wait for what is being saved.
+/// The second signal ends the process at once, even while files are written.
 extern "C" void on_signal(int signal) {
   if (stop_requested) _exit(128 + signal);
   stop_signal = signal;
@@ -45,12 +45,11 @@ int interrupted_status() {
                                 : static_cast<int>(ExitCode::interrupted);
 }
 
-/// SIGINT and SIGTERM end the render early for as long as this lives. (While a scene is read they end the
-/// process.)
+/// While this exists, SIGINT and SIGTERM end the render early. (While a scene is read, they end the process.)
 class SignalGuard {
 public:
   SignalGuard() {
-    stop_requested = false; // of a render before
+    stop_requested = false; // of an earlier render
     interrupt_ = std::signal(SIGINT, on_signal);
     terminate_ = std::signal(SIGTERM, on_signal);
   }
@@ -70,14 +69,14 @@ void apply_options(const RenderOptions& o, Document& document, PassOptions& pass
   if (o.spp) document.settings.stop.spp = *o.spp;
   if (o.time) document.settings.stop.time = *o.time;
   if (o.noise) document.settings.stop.noise = *o.noise;
-  if ((o.time || o.noise) && !o.spp) document.settings.stop.spp = 0; // they alone decide
+  if ((o.time || o.noise) && !o.spp) document.settings.stop.spp = 0; // only these criteria apply
   if (o.seed) document.settings.sampler.seed = *o.seed;
   if (o.size) {
     auto size = integers(*o.size, 'x', 2, "--size", "WxH, such as 1280x720");
     document.settings.film.width = size[0];
     document.settings.film.height = size[1];
   }
-  // What has an option is a setting too, and --set wins over both file and job.
+  // Options are settings too, and --set overrides both file and job.
   for (const std::string& s : o.scene.settings) apply_setting(document, s);
   if (auto problem = document_problem(document); !problem.empty())
     throw usage_error("settings", problem, "see `candela settings`");
@@ -128,7 +127,7 @@ nlohmann::ordered_json stats_json(const Document& document, const OfflineResult&
   return j;
 }
 
-/// How far the picture is from the reference and, where it was denoised, how far it was before.
+/// The picture's error against the reference, for denoised pictures also the error before denoising.
 std::string reference_json(const Image& picture, const Image* noisy, const Image& reference) {
   std::string text = comparison_json(compare_images(picture, reference));
   if (noisy == nullptr) return text;
@@ -142,7 +141,7 @@ std::string rate_text(const OfflineProgress& p) {
                      static_cast<double>(p.rays.samples) / std::max(p.render_seconds, 1e-9) / 1e6);
 }
 
-/// Refuses what cannot be written, for the work is not to be done in vain.
+/// Checks the outputs before the render, so that it is not lost.
 void check_render_outputs(const RenderOptions& options, const std::vector<std::string>& pictures,
                           const std::vector<Aov>& aovs, std::vector<std::string> inputs) {
   std::vector<PlannedOutput> planned;
@@ -156,11 +155,11 @@ void check_render_outputs(const RenderOptions& options, const std::vector<std::s
   if (options.stats) planned.push_back({"--stats", *options.stats});
   if (options.reference) inputs.push_back(*options.reference);
   if (options.scene.path != options.reference && !is_image_name(options.scene.path))
-    inputs.push_back(options.scene.path); // a picture may be made again in its own place
+    inputs.push_back(options.scene.path); // a picture may be rendered again over itself
   check_outputs(planned, inputs);
 }
 
-/// The pictures that the scene is made of.
+/// The scene's textures and panoramas.
 std::vector<std::string> picture_files(const SceneDesc& scene) {
   std::vector<std::string> files;
   for (const auto& texture : scene.textures)
@@ -172,7 +171,7 @@ std::vector<std::string> picture_files(const SceneDesc& scene) {
   return files;
 }
 
-/// The pixels that are written.
+/// The film's part that is written.
 ivec2 picture_size(const FilmSettings& film, const CropWindow& crop) {
   return crop.width > 0 ? ivec2(crop.width, crop.height) : ivec2(film.width, film.height);
 }
@@ -216,7 +215,7 @@ int run_render(const RenderOptions& options) {
   apply_options(options, loaded.document, offline.pass);
   const FilmSettings& film = loaded.document.settings.film;
   if (!options.crop && (film.width != loaded_film.width || film.height != loaded_film.height))
-    offline.pass.crop = {}; // the part that the picture shows is one of another film
+    offline.pass.crop = {}; // the crop is relative to another film size
   const std::vector<std::string> outputs = options.outputs.empty() ? loaded.output_files : options.outputs;
   if (outputs.empty()) throw usage_error("render", "there is nowhere to write to", "add -o FILE");
   check_render_outputs(options, outputs, aovs, picture_files(loaded.document.scene));

@@ -8,7 +8,7 @@ namespace candela {
 
 struct RenderOptions {
   SceneOptions scene;
-  std::vector<std::string> outputs; ///< empty: what the job names
+  std::vector<std::string> outputs; ///< empty: the job's outputs
   std::optional<int> spp;
   std::optional<float> time;       ///< seconds
   std::optional<float> noise;      ///< relative error
@@ -22,7 +22,7 @@ struct RenderOptions {
   bool no_state = false; ///< do not keep the scene in the pictures
 };
 
-/// Renders to files. Interrupted (SIGINT, SIGTERM) it writes what it has and returns 130 or 143.
+/// `candela render`. If interrupted (SIGINT, SIGTERM), it writes the samples so far and returns 130 or 143.
 int run_render(const RenderOptions& options);
 
 } // namespace candela

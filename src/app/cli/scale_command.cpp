@@ -27,7 +27,7 @@ constexpr const char* kSpheres = "ten_thousand_spheres";
 constexpr const char* kLights = "many_lights";
 constexpr const char* kSweep = "sweep";
 
-/// How much of everything there is.
+/// Sizes of scenes and pictures.
 struct Extent {
   std::size_t landscape = 1'000'000;
   std::vector<std::size_t> landscapes = {1'000, 4'000, 16'000, 64'000, 256'000, 1'000'000, 4'000'000};
@@ -54,7 +54,7 @@ ivec2 size_of(const std::optional<std::string>& text, const char* option, ivec2 
   return {parts[0], parts[1]};
 }
 
-/// The folder asked for, or one that is removed with the object.
+/// The user's folder, or a temporary one that the destructor removes.
 class OutputFolder {
 public:
   explicit OutputFolder(const std::optional<std::string>& kept) : kept_(kept.has_value()) {
@@ -143,7 +143,7 @@ private:
         [&] { return to_json(measure_scene(scene_options(path), name, extent_.size, extent_.rounds)); }));
   }
 
-  /// The scenes of other sizes; what has been measured already is taken from there.
+  /// The scenes of all sizes; results that exist already are reused.
   void sweep() {
     auto known = [this](const char* name) -> const ScaleResult* {
       const auto found = std::ranges::find(report_.scenes, name, &ScaleResult::name);
@@ -200,7 +200,7 @@ int run_scale_bench(const ScaleBenchOptions& o) {
   extent.picture_size = size_of(o.picture_size, "--picture-size", extent.picture_size);
   extent.rounds = o.rounds.value_or(extent.rounds);
   extent.picture_spp = o.picture_spp.value_or(extent.picture_spp);
-  // Refuse before the work, not after.
+  // Checked before the work.
   check_stdout();
   std::vector<PlannedOutput> outputs;
   for (const auto& [option, path] :

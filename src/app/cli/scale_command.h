@@ -1,5 +1,5 @@
 #pragma once
-// `candela bench scale`: what large scenes cost.
+// `candela bench scale`: the cost of large scenes.
 
 #include <optional>
 #include <string>
@@ -8,10 +8,10 @@
 namespace candela {
 
 struct ScaleBenchOptions {
-  std::vector<std::string> scenes; ///< measure these files; none: those that it writes, and the bundled ones
-  std::vector<std::string> only;   ///< parts, of scale_parts(); none: all
-  std::optional<std::string> folder; ///< keeps what it writes; else that is removed at the end
-  std::optional<std::string> size;   ///< WxH of what is measured
+  std::vector<std::string> scenes;   ///< files to measure; none: the generated and the bundled ones
+  std::vector<std::string> only;     ///< parts, of scale_parts(); none: all
+  std::optional<std::string> folder; ///< keeps the generated files; without it they are removed at the end
+  std::optional<std::string> size;   ///< WxH of the measured pictures
   std::optional<int> rounds;
   std::optional<std::string> plot;    ///< PNG to write
   std::optional<std::string> picture; ///< render the landscape to this file
@@ -24,7 +24,7 @@ struct ScaleBenchOptions {
   bool quiet = false;
 };
 
-/// "landscape", "stones", …: what `--only` takes.
+/// The values of `--only`: "landscape", "stones", …
 std::vector<std::string> scale_parts();
 
 /// Writes the scenes, measures each in a process of its own, prints the tables. Returns 0.

@@ -9,7 +9,7 @@ namespace candela {
 
 namespace {
 
-/// A scene with one thing of which the file says no more than its type.
+/// A scene with one object, of which the file gives only the type.
 SceneDesc scene_with(std::string_view list, std::string_view type) {
   WarningList warnings;
   const std::string text =
@@ -21,7 +21,7 @@ std::string joined(const std::vector<std::string_view>& names) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// The value that most types begin with, then those that begin with another.
+/// The most common default, then the types with other defaults.
 std::string default_cell(const std::vector<std::string_view>& types, const std::vector<std::string>& values) {
   std::string usual;
   std::ptrdiff_t most = 0;
@@ -33,9 +33,9 @@ std::string default_cell(const std::vector<std::string_view>& types, const std::
   return out;
 }
 
-/// A line for each key that means the same to its types, in the order in which the types name them; what all
-/// have comes last. `defaults` has a thing of each type, `rows_of(thing)` its rows; `domain(row)` is what a
-/// value may be.
+/// A line for each key, and for each meaning of a key that types use differently, in the order of the types'
+/// rows; keys of all types come last. `defaults` holds a default object of each type, `rows_of(object)` its
+/// rows; `domain(row)` describes the allowed values.
 template <class T, class RowsOf, class Domain>
 std::string typed_table(const FieldInfo& type_row, const std::vector<T>& defaults, RowsOf rows_of,
                         Domain domain) {

@@ -1,12 +1,11 @@
 #pragma once
-// The tables in scenes/README.md of what materials, lights and shapes have, with the values of what a scene
-// file leaves out.
+// The tables of materials, lights and shapes in scenes/README.md, with their default values.
 
 #include <string>
 
 namespace candela {
 
-/// Markdown: one row a value, with the types that look at it.
+/// Markdown: one row per value, with the types that have it.
 std::string materials_markdown();
 std::string lights_markdown();
 std::string shapes_markdown();

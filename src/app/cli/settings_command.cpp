@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What an edit restarts, in a word or two.
+/// What an edit of the setting restarts.
 std::string_view restarts(Invalidates invalidates) {
   switch (invalidates) {
   case Invalidates::nothing: return "nothing";
@@ -38,7 +38,7 @@ std::string_view type_name(FieldType type) {
   return "";
 }
 
-/// The value as JSON; the text form of numbers and truth values is JSON already.
+/// The value as JSON; the text of numbers and booleans is JSON already.
 ordered_json value_json(const Field<Document>& row, const Document& document) {
   std::string text = field_text(row, document);
   if (row.type == FieldType::choice) return text;

@@ -11,7 +11,7 @@
 namespace candela {
 
 int run_view(const SceneOptions& options, bool use_preferences) {
-  // Before the scene is read: who has no display need not wait for it.
+  // Checked before the scene is read, which may take long.
   if (!display_available())
     throw Error(ExitCode::display,
                 "display: there is none to open a window on: set DISPLAY (or WAYLAND_DISPLAY), or "
@@ -22,8 +22,8 @@ int run_view(const SceneOptions& options, bool use_preferences) {
   viewer.files = std::move(loaded.files);
   viewer.scene_path = options.path;
   viewer.threads = options.threads;
-  viewer.reading = {options.allow_outside};           // holds for scenes opened later, too
-  for (const std::string& setting : options.settings) // who asks for a size gets it
+  viewer.reading = {options.allow_outside};           // also for scenes opened later
+  for (const std::string& setting : options.settings) // a size on the command line fixes the film
     if (setting.starts_with("film.width=") || setting.starts_with("film.height=")) viewer.fit_film = false;
   if (use_preferences) viewer.preferences_path = default_preferences_path();
   if (!viewer.preferences_path.empty()) {

@@ -4,8 +4,8 @@
 
 namespace candela {
 
-/// Opens the window on the scene and returns when it is closed. An Error with ExitCode::display where there
-/// is none.
+/// Opens the window with the scene and returns when it is closed. An Error with ExitCode::display if there is
+/// no display.
 int run_view(const SceneOptions& options, bool use_preferences);
 
 } // namespace candela

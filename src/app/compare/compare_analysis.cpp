@@ -11,7 +11,7 @@ namespace candela {
 
 namespace {
 
-/// A point of the plot has so many times the samples of the one before.
+/// Ratio of the samples of consecutive points of the plot.
 constexpr double kPointStep = 1.09;
 
 } // namespace

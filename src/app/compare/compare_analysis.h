@@ -1,5 +1,5 @@
 #pragma once
-// The numbers of a comparison: what is worked out beside the UI thread, and how it fell over time.
+// The numbers of a comparison, computed on a thread of their own, and the errors over time.
 
 #include "app/compare/compare_state.h"
 #include "render/film/frame.h"
@@ -15,17 +15,17 @@
 namespace candela {
 
 struct CompareAnalysis {
-  // What is asked.
-  std::array<std::shared_ptr<const Frame>, 2> frames; ///< null: there is no whole picture yet
-  std::shared_ptr<const Image> reference;             ///< null: none that fits
-  std::optional<std::pair<int, int>> difference;      ///< of which pictures: 0 A, 1 B, 2 the reference
+  // Input.
+  std::array<std::shared_ptr<const Frame>, 2> frames; ///< null: no complete picture yet
+  std::shared_ptr<const Image> reference;             ///< null: no reference that fits
+  std::optional<std::pair<int, int>> difference;      ///< the two pictures: 0 A, 1 B, 2 the reference
   bool with_sign = false;
   float range = 0.1f;
 
-  // The answer.
+  // Output.
   std::array<std::optional<double>, 2> rel_mse, noise; ///< as in CompareVariant
   std::shared_ptr<DisplayImage> picture;               ///< the difference
-  double seconds = 0;                                  ///< that it took
+  double seconds = 0;                                  ///< that the analysis took
 
   void run();
 
@@ -33,10 +33,10 @@ private:
   std::span<const vec3> pixels(int which) const;
 };
 
-/// estimated_relmse of a frame that shows radiance; nothing where no pixel has two samples.
+/// estimated_relmse of a frame that shows radiance; nothing if no pixel has two samples.
 std::optional<double> frame_noise(const Frame& frame);
 
-/// An error over one accumulation.
+/// The error of one accumulation over time.
 struct ErrorTrack {
   struct Point {
     double samples = 0, seconds = 0, error = 0;
@@ -44,11 +44,12 @@ struct ErrorTrack {
   std::uint64_t generation = 0;
   std::vector<Point> points;
 
-  /// Begins anew with another accumulation; points closer to the last one than a plot shows are left out.
+  /// Another accumulation starts a new history. Points too close to the last one to be distinguished in a
+  /// plot are skipped.
   void add(const Frame& frame, double error);
 };
 
-/// Both variants' errors over their samples or seconds, and how independent samples would fall.
+/// Both variants' errors over samples or seconds, and the slope of independent samples.
 Plot error_plot(const std::array<ErrorTrack, 2>& tracks, bool over_seconds, std::string_view error_name);
 
 } // namespace candela

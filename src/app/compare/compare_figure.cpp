@@ -1,4 +1,4 @@
-// What is on the screen of a comparison, as a figure.
+// A comparison as shown on the screen, as a figure.
 
 #include "app/compare/compare_mode.h"
 #include "app/figures/figure.h"
@@ -15,7 +15,7 @@ namespace candela {
 namespace {
 
 constexpr int kWidestPicture = 1280;
-constexpr float kTextScaleWidth = 640; // text grows with pictures wider than this
+constexpr float kTextScaleWidth = 640; // wider pictures get larger text
 
 RgbPicture without_alpha(std::span<const std::uint8_t> rgba, int width, int height) {
   RgbPicture out{width, height, {}};
@@ -91,7 +91,7 @@ std::string write_comparison_figure(const ComparisonFigure& source, const std::s
     plot.whole_row = true;
     figure.panels.push_back(std::move(plot));
   }
-  // Small pictures are magnified, large ones reduced: a figure is to be read.
+  // Small pictures are magnified and large ones reduced, so that the figure is readable.
   figure.picture_width = std::clamp(widest, 320, kWidestPicture);
   figure.scale = std::max(1.0f, static_cast<float>(figure.picture_width) / kTextScaleWidth);
   const RgbPicture picture = draw_figure(figure, Typeface::installed());

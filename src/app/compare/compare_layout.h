@@ -1,5 +1,5 @@
 #pragma once
-// Where the two pictures of a comparison lie.
+// The screen layout of a comparison's two pictures.
 
 #include "app/compare/compare_state.h"
 #include "app/tools/viewport.h"
@@ -9,19 +9,19 @@ namespace candela {
 struct ComparePanes {
   struct Pane {
     bool shown = false;
-    PixelRect picture; ///< the whole film, parts of which may lie outside of the clip
-    PixelRect clip;    ///< what of the window it may draw on
+    PixelRect picture; ///< the whole film; parts may lie outside the clip rectangle
+    PixelRect clip;    ///< the part of the window that it may draw to
   };
   std::array<Pane, 2> variants;
-  bool difference = false; ///< the difference is shown, where variant 0 has its pane
-  int divider = -1;        ///< x of the line between the two; -1: there is none
+  bool difference = false; ///< the difference is shown in variant 0's pane
+  int divider = -1;        ///< x of the line between the two; -1: none
 
-  /// The variant that is at this place of the window; 0 where neither is.
+  /// The variant at this position of the window; 0 if there is none.
   int variant_at(vec2 position) const;
 };
 
-/// `region` is what is free of panels, `whole` where the picture would lie without a comparison, `shape` the
-/// film's size as it is shown, in pixels.
+/// `region` is the part of the window without panels, `whole` the picture's rectangle without a comparison,
+/// `shape` the displayed size of the film in pixels.
 ComparePanes compare_panes(const CompareState& state, const PixelRect& region, const PixelRect& whole,
                            ivec2 shape);
 

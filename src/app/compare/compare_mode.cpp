@@ -12,18 +12,18 @@ namespace candela {
 
 namespace {
 
-/// The reference's random numbers are others than those of the variants, or their errors would be correlated.
+/// The reference has a seed of its own: otherwise its error would be correlated with the variants'.
 constexpr int kReferenceSeed = 0x5eed;
-/// An analysis begins no sooner after the last one than this, and takes no more than this share of a core.
+/// Limits of the analyses: the least time from one to the next, and their share of a core.
 constexpr double kAnalysisInterval = 0.05, kAnalysisShare = 0.1;
 
 double now_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// The frame of the newest accumulation, once it has a sample in every pixel.
+/// The newest accumulation's frame, if every pixel has a sample.
 std::shared_ptr<const Frame> current_frame(const RenderSession& session) {
-  const SessionStatus status = session.status(); // first: the frame is at least as new
+  const SessionStatus status = session.status(); // read first, so that the frame is at least as new
   if (status.submitted != status.generation || status.first_image_ms < 0) return nullptr;
   auto frame = session.latest();
   return frame && frame->spp > 0 ? frame : nullptr;
@@ -31,7 +31,7 @@ std::shared_ptr<const Frame> current_frame(const RenderSession& session) {
 
 bool same_size(const Frame& a, const Frame& b) { return a.width == b.width && a.height == b.height; }
 
-/// Everything but the camera's own: what both variants must share to be compared.
+/// The values that both variants must share to be comparable, except the camera's.
 void share(const CompareState& state, const Document& from, Document& to) {
   to.settings.film.width = from.settings.film.width;
   to.settings.film.height = from.settings.film.height;
@@ -98,7 +98,7 @@ void CompareMode::end(CompareState& state, const Edited& edited) {
   state.plot = {};
 }
 
-/// A session ends beside the UI thread: it may be in the middle of building a large scene.
+/// Sessions are destroyed on another thread: one may still be building a large scene.
 void CompareMode::dispose(std::unique_ptr<RenderSession> session) {
   if (!session) return;
   analyst_.post(
@@ -167,7 +167,7 @@ std::string CompareMode::update(CompareState& state, const Edited& edited) {
 void CompareMode::freeze_reference(const CompareState& state, const Edited& edited, int variant) {
   const auto frame = current_frame(session(state, edited, variant));
   if (!frame) {
-    message_ = "There is no whole picture yet: wait for its first sample";
+    message_ = "There is no complete picture yet: wait for its first sample";
     return;
   }
   clear_reference();
@@ -199,7 +199,7 @@ void CompareMode::load_reference(const std::string& path) {
     try {
       auto image = std::make_shared<const Image>(read_image(path));
       return [this, path, image] {
-        if (!other_.session) return; // the comparison is over
+        if (!other_.session) return; // the comparison has ended
         clear_reference();
         reference_ = {image, std::filesystem::path(path).filename().string(), std::nullopt};
       };
@@ -239,7 +239,7 @@ void CompareMode::watch_reference(CompareState& state, const Edited& edited) {
       message_ = status.error;
       dispose(std::move(reference_session_));
     } else if (rendering_.camera != a.scene.camera) {
-      message_ = "The reference was given up: the view is another one";
+      message_ = "The reference was dropped: the view has changed";
       dispose(std::move(reference_session_));
     } else if (status.phase == SessionPhase::finished) {
       const auto frame = reference_session_->latest();
@@ -299,7 +299,7 @@ void CompareMode::analyse(const CompareState& state, const Edited& edited) {
 void CompareMode::take(const CompareAnalysis& analysis) {
   --analyses_;
   next_analysis_ = now_seconds() + std::max(kAnalysisInterval, analysis.seconds / kAnalysisShare);
-  if (!other_.session) return; // the comparison is over
+  if (!other_.session) return; // the comparison has ended
   if (analysis.picture) difference_ = analysis.picture;
   const bool same_reference = reference_ && analysis.reference == reference_->image;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -317,7 +317,7 @@ void CompareMode::describe(CompareState& state, const Edited& edited) const {
     variant.status = session(state, edited, i).status();
     variant.label = distinct_settings(document(state, edited, i), document(state, edited, 1 - i), 3);
     const Measured& measured = measured_[static_cast<std::size_t>(i)];
-    // Of the newest accumulation: edits that restart nothing, as of the exposure, make no new one.
+    // Of the newest accumulation: edits that restart nothing, such as the exposure, do not start another.
     const bool is_current = measured.generation >= variant.status.restarting;
     variant.rel_mse = is_current && state.has_reference ? measured.rel_mse : std::nullopt;
     variant.noise = is_current ? measured.noise : std::nullopt;

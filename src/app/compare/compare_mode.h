@@ -1,7 +1,7 @@
 #pragma once
-// Two Documents rendered at once, and what can be said about their difference. The Viewer goes on with the
-// one that is edited; this holds the other, and changes places with it when the other is to be edited. All
-// numbers are worked out on a thread of their own.
+// Two Documents rendered at once, and measures of their difference. The Viewer holds the edited one and this
+// class the other; they swap when the user edits the other one. All numbers are computed on a thread of their
+// own.
 
 #include "app/compare/compare_analysis.h"
 #include "app/platform/task_thread.h"
@@ -22,7 +22,7 @@ public:
     std::function<void()> wake;
     std::filesystem::path folder; ///< of exported figures
   };
-  /// What of the Viewer changes places when the other variant is edited.
+  /// The Viewer's members that are swapped when the other variant is edited.
   struct Edited {
     Document& document;
     std::unique_ptr<RenderSession>& session;
@@ -33,28 +33,29 @@ public:
 
   /// The edited Document becomes A; B begins as its copy.
   void begin(CompareState& state, const Edited& edited, EditState now);
-  /// The edited variant stays, the other one goes.
+  /// Ends the comparison; the edited variant stays.
   void end(CompareState& state, const Edited& edited);
-  /// The panels change the other variant from now on.
+  /// From now on the panels edit the other variant.
   void exchange(CompareState& state, const Edited& edited);
   /// The other variant becomes a copy of this document.
   void replace_other(const Document& document);
   const Document& other_document() const { return other_.document; }
   const RenderSession* other_session() const { return other_.session.get(); }
 
-  /// What both share (film size, display, when to stop, perhaps the camera) goes over to the other variant.
+  /// Copies the values that both share (film size, display, stopping criteria, perhaps the camera) to the
+  /// other variant.
   void follow(const CompareState& state, const Document& edited);
   void pause(bool paused);
   void step();
   void set_region(const CropWindow& region);
 
-  /// To be called once a frame: takes what has been worked out, asks for more. Returns what is to be told to
-  /// the user; empty if nothing.
+  /// Called once a frame: takes finished results and requests new ones. Returns a message for the user, or an
+  /// empty text.
   std::string update(CompareState& state, const Edited& edited);
   bool wants_redraw() const;
   bool busy() const;
 
-  // The reference. It is left as soon as another view or another size of film is rendered.
+  // The reference. It is dropped as soon as another view or film size is rendered.
   void freeze_reference(const CompareState& state, const Edited& edited, int variant);
   void render_reference(const CompareState& state, const Edited& edited);
   void load_reference(const std::string& path);
@@ -72,10 +73,10 @@ private:
   struct Reference {
     std::shared_ptr<const Image> image;
     std::string name;
-    std::optional<Camera> camera; ///< of what it shows; none: a file's, that nobody knows
+    std::optional<Camera> camera; ///< of the rendered view; none if unknown, as for a file
   };
   struct Measured {
-    std::uint64_t generation = 0; ///< of the frame that the numbers are of
+    std::uint64_t generation = 0; ///< of the frame that the numbers belong to
     std::optional<double> rel_mse, noise;
   };
   struct Other {
@@ -91,7 +92,7 @@ private:
     return variant == state.edited ? edited.document : other_.document;
   }
   void dispose(std::unique_ptr<RenderSession> session);
-  /// Why the reference does not fit what is rendered; empty if it does.
+  /// Why the reference does not fit the rendered pictures; empty if it does.
   std::string reference_problem(const Document& document) const;
   void watch_reference(CompareState& state, const Edited& edited);
   void analyse(const CompareState& state, const Edited& edited);
@@ -101,16 +102,16 @@ private:
   Options options_;
   std::shared_ptr<RenderTurns> turns_;
   Other other_;
-  std::unique_ptr<RenderSession> reference_session_; ///< while it is rendered
-  Reference rendering_;                              ///< what that will be
+  std::unique_ptr<RenderSession> reference_session_; ///< while the reference is rendered
+  Reference rendering_;                              ///< the reference that it will give
   std::optional<Reference> reference_;
   bool paused_ = false;
   std::array<ErrorTrack, 2> rel_mse_tracks_, noise_tracks_;
-  std::array<Measured, 2> measured_; ///< last
+  std::array<Measured, 2> measured_; ///< newest
   std::shared_ptr<const DisplayImage> difference_;
   std::array<std::shared_ptr<const Frame>, 2> analysed_; ///< frames of the last analysis
-  int analyses_ = 0;                                     ///< under way
-  /// What an analysis is asked for beside its frames: a change of it asks for another one.
+  int analyses_ = 0;                                     ///< running
+  /// The other inputs of the last analysis: a change requests another one.
   using Key = std::tuple<CompareLayout, DifferenceOf, bool, float, std::shared_ptr<const Image>>;
   Key key_of(const CompareState& state) const {
     return {state.layout, state.difference, state.with_sign, state.range,
@@ -120,10 +121,10 @@ private:
   double next_analysis_ = 0;
   std::string message_;
 
-  TaskThread analyst_; // last: its completions use what stands above
+  TaskThread analyst_; // last, because its completions use the members above
 };
 
-/// The figure of a comparison, from what is on the screen. Pictures may be null.
+/// The contents of a comparison's figure, as on the screen. Pictures may be null.
 struct ComparisonFigure {
   std::array<std::shared_ptr<const DisplayImage>, 2> pictures;
   std::shared_ptr<const Image> reference;
@@ -131,10 +132,10 @@ struct ComparisonFigure {
   DifferenceOf difference = DifferenceOf::a_and_b;
   bool with_sign = false;
   float range = 0.1f;
-  Plot plot; ///< drawn if it has points
+  Plot plot; ///< left out if it has no points
 };
 
-/// Draws it and writes it to a new file of the folder, whose path it returns.
+/// Draws the figure and writes it to a new file in the folder. Returns its path.
 std::string write_comparison_figure(const ComparisonFigure& source, const std::string& folder);
 
 } // namespace candela

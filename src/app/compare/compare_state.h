@@ -1,5 +1,5 @@
 #pragma once
-// What the Compare panel looks at and changes: two Documents, A and B, rendered side by side.
+// The state that the Compare panel shows and edits: two Documents, A and B, rendered side by side.
 
 #include "app/figures/plot.h"
 #include "session/render_session.h"
@@ -14,35 +14,35 @@ namespace candela {
 enum class CompareLayout : int { side_by_side, wipe, flip, difference };
 enum class DifferenceOf : int { a_and_b, a_and_reference, b_and_reference };
 
-/// What CompareVariant::noise is called wherever it shows: no variance knows of a bias.
+/// The label of CompareVariant::noise. It is not "error", since a variance does not include bias.
 inline constexpr std::string_view kNoiseName = "noise (est. relMSE)";
 
 struct CompareVariant {
   SessionStatus status;
   std::string label;             ///< what it has that the other has not: "sampler.type=halton"
   std::optional<double> rel_mse; ///< against the reference
-  std::optional<double> noise;   ///< relMSE that the picture's own variance lets expect
+  std::optional<double> noise;   ///< relMSE estimated from the picture's variance
 };
 
 struct CompareState {
   bool active = false;
-  bool panel_was_active = false; ///< in the frame before: the panel unfolds when a comparison begins
+  bool panel_was_active = false; ///< in the last frame: the panel unfolds when a comparison begins
   int edited = 0;                ///< the variant that the panels change; 0: A, 1: B
   CompareLayout layout = CompareLayout::side_by_side;
   bool equal_time = false;  ///< both render for the same time; else the same samples
   bool share_camera = true; ///< flying moves both
-  bool flipped = false;     ///< B is to be seen, in the flip layout
+  bool flipped = false;     ///< B is shown, in the flip layout
   float divider = 0.5f;     ///< of wipe, share of the free region's width
-  int zoom = 0;             ///< screen pixels a film pixel; 0: all of the film
+  int zoom = 0;             ///< screen pixels per film pixel; 0: the whole film
   vec2 pan{0};              ///< of a zoomed picture, film pixels from the middle
   DifferenceOf difference = DifferenceOf::a_and_b;
   bool with_sign = false;
-  float range = 0.1f; ///< of the signed difference: the relative difference of the end colours
+  float range = 0.1f; ///< relative difference at the ends of the signed colour map
   bool over_seconds = false;
   int reference_spp = 1024;
   std::string reference_path; ///< as typed
 
-  // What there is to see.
+  // Shown by the panel.
   std::array<CompareVariant, 2> variants;
   std::string reference; ///< in words: "none", "rendering, 12 of 1024 spp", "A at 512 spp"
   bool has_reference = false;
@@ -67,8 +67,9 @@ constexpr CompareLayout next_layout(CompareLayout layout) {
 /// 'A' or 'B'.
 constexpr char variant_letter(int variant) { return variant == 0 ? 'A' : 'B'; }
 
-/// The settings that `document` has and `other` has not, as KEY=VALUE; those that both variants of a
-/// comparison share (camera, film size, display, stop) are left out. At most `most`, the rest is counted.
+/// The settings of `document` that differ from those of `other`, as KEY=VALUE, except those that both
+/// variants share (camera, film size, display, stop). Lists at most `most` of them and the number of the
+/// others.
 std::string distinct_settings(const Document& document, const Document& other, std::size_t most);
 
 } // namespace candela

@@ -39,7 +39,7 @@ bool needs_components(const std::vector<Aov>& aovs) {
 }
 
 std::string aov_path(const std::string& output, const std::string& name) {
-  std::size_t dot = output.rfind('.'); // there is one: the format is known by it
+  std::size_t dot = output.rfind('.'); // present, since it tells the format
   return output.substr(0, dot) + "." + name + output.substr(dot);
 }
 

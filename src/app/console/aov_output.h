@@ -1,5 +1,5 @@
 #pragma once
-// Arbitrary output variables: further pictures of a render, beside the one that its settings ask for.
+// Arbitrary output variables (AOVs): additional pictures of a render.
 
 #include "app/console/outputs.h"
 #include "session/offline_render.h"
@@ -9,7 +9,7 @@
 
 namespace candela {
 
-/// One of the views' names, or emitted, direct, indirect: parts of the radiance, separated by the same
+/// A view, or one of the components of the radiance (emitted, direct, indirect), which come from the same
 /// samples.
 struct Aov {
   std::string name;
@@ -17,15 +17,15 @@ struct Aov {
   int component = -1; ///< 0: emitted, 1: direct, 2: indirect; -1: `view`
 };
 
-/// A usage error where there is no such name.
+/// The AOV of a name; a usage error for unknown names.
 std::vector<Aov> parse_aovs(const std::vector<std::string>& names);
 bool needs_components(const std::vector<Aov>& aovs);
 
 /// "out.exr" for the AOV "normal": "out.normal.exr".
 std::string aov_path(const std::string& output, const std::string& name);
 
-/// Renders what the film does not hold, and writes every AOV beside every output, in its format, of the crop
-/// window alone as the output is. Returns the paths.
+/// Writes every AOV next to every output, in the output's format and crop window, and first renders those
+/// that the film does not hold. Returns the paths.
 std::vector<std::string> write_aovs(const std::vector<Aov>& aovs, const std::vector<std::string>& outputs,
                                     const Document& document, const OfflineResult& rendered,
                                     const OfflineOptions& options, OutputWriter& writer);

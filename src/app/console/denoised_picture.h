@@ -1,5 +1,5 @@
 #pragma once
-// The denoised picture of a render that is done.
+// Denoising of a finished render.
 
 #include "session/offline_render.h"
 
@@ -8,11 +8,11 @@
 namespace candela {
 
 struct DenoisedPicture {
-  Image image;    ///< of what the film holds
-  double seconds; ///< features and all
+  Image image;    ///< of the film
+  double seconds; ///< including the features
 };
 
-/// Where the document asks for one; warns on stderr where there is nothing to make it from.
+/// The denoised picture, if the document asks for one; warns on stderr if there are too few samples.
 std::optional<DenoisedPicture> denoised_picture(const Document& document, const OfflineResult& result,
                                                 const PassOptions& pass);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Options whose value is a number in a range, refused in the same words as a setting's.
+// Options with a number in a range; their errors read like those of settings.
 
 #include "core/fields.h"
 
@@ -11,7 +11,7 @@
 
 namespace candela {
 
-/// `text` as a value of the row, whose key is in the message of the usage error where it does not fit.
+/// Reads `text` as a value of the row; a usage error with the row's key if it does not fit.
 template <class T>
 T number_from_text(const FieldInfo& row, const std::string& text) {
   std::conditional_t<std::integral<T>, int, float> value{};
@@ -19,7 +19,7 @@ T number_from_text(const FieldInfo& row, const std::string& text) {
   return static_cast<T>(value);
 }
 
-/// Adds an option with the range of `row`: what it says of itself is the option's `name` and `help`.
+/// Adds an option with the range of `row`; name and help are the option's own.
 template <class T>
 CLI::Option* add_number(CLI::App& command, const std::string& name, T& target, FieldInfo row,
                         const std::string& help) {
@@ -40,7 +40,7 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, T& target, F
       ->type_name(kIntegral ? "INTEGER" : "NUMBER");
 }
 
-/// A row that is only a range.
+/// A row for a range.
 inline FieldInfo range(double minimum, double maximum, std::string_view unit = "") {
   return {"", FieldType::real, minimum, maximum, unit, ""};
 }

@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The same for every path to a file, whether it exists or not; empty for what is no file, and for what
-/// cannot be told.
+/// A key that is equal for all paths of one file, existing or not; empty for paths that are not files, or
+/// unknown.
 std::string identity(const std::string& path) {
   if (is_stream(path)) return {};
   std::error_code failed;

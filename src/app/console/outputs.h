@@ -1,5 +1,5 @@
 #pragma once
-// What a command writes: looked at before its work, and none of it lost because of another.
+// The outputs of a command: checked before its work; one that fails does not prevent the others.
 
 #include "core/error.h"
 
@@ -14,18 +14,18 @@ struct PlannedOutput {
   std::string path;
 };
 
-/// Before the work: an output_error for a path that cannot be written to (a missing folder, a folder in its
-/// place, no permission), a usage error where two outputs would be one file, or an output is one of `inputs`,
-/// which would be lost. Every command that writes asks this.
+/// Called before the work by every command that writes. Throws output_error for a path that cannot be written
+/// (missing folder, folder of that name, no permission); a usage error if two outputs are the same file, or
+/// if an output would overwrite one of `inputs`.
 void check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs = {});
 
-/// Writes outputs of which one that fails must not cost the others: what went wrong is said at once, and
+/// Writes outputs; one that fails does not prevent the others. Errors are printed at once, and the first is
 /// kept.
 class OutputWriter {
 public:
-  /// Runs `write`; the Error or the lack of memory that it ends with is said on stderr.
+  /// Runs `write`; prints an Error or a lack of memory on stderr.
   void attempt(const std::string& path, const std::function<void()>& write);
-  /// Of the first that failed; done where none did.
+  /// The code of the first failure; done if there was none.
   ExitCode code() const { return code_; }
 
 private:

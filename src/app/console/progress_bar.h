@@ -5,12 +5,11 @@
 
 namespace candela {
 
-/// Progress of long work on stderr: a bar that rewrites its line on a terminal, else a plain line every ten
-/// seconds.
+/// Progress on stderr: on a terminal a bar that is redrawn in place, else a line every ten seconds.
 class ProgressBar {
 public:
   explicit ProgressBar(bool quiet);
-  /// `fraction` in 0..1; the time left is what the rate so far makes it.
+  /// `fraction` in 0..1; the remaining time is extrapolated from it.
   void update(double fraction, const std::string& text);
   void finish(const std::string& text);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What every command that takes a scene shares.
+// Options of all commands that read a scene.
 
 #include "io/scene_reader.h"
 
@@ -18,13 +18,12 @@ struct SceneOptions {
   int threads = 0; ///< 0: every core
 };
 
-/// Exactly `n` integers with `separator` between them: the value of an option such as --size. `form` tells
-/// how it is written; a usage error if it is not.
+/// Parses exactly `n` integers separated by `separator`, the value of an option such as --size. `form`
+/// describes the syntax in the usage error.
 std::vector<int> integers(const std::string& text, char separator, std::size_t n, std::string_view option,
                           std::string_view form);
 
-/// Reads the scene, prints its warnings to stderr, goes to the bookmark and applies the settings over what
-/// the file says.
+/// Reads the scene, prints its warnings to stderr, applies the bookmark's camera and then the settings.
 LoadedScene load_scene(const SceneOptions& options);
 
 } // namespace candela

@@ -59,7 +59,7 @@ void Canvas::frame(const Box& b, int t, Rgb8 color) {
 void Canvas::draw(const RgbPicture& from, const Box& part, const Box& where) {
   const double step_x = static_cast<double>(part.width) / where.width,
                step_y = static_cast<double>(part.height) / where.height;
-  // The texels [first, last) that a pixel's interval covers most of; one at least.
+  // The texels [first, last) of which a pixel's interval covers most; at least one.
   auto interval = [](int i, double step, int origin, int size) {
     const int first = std::min(static_cast<int>(i * step + 1e-6), size - 1);
     const int last = std::clamp(static_cast<int>(std::lround((i + 1) * step)), first + 1, size);
@@ -99,7 +99,7 @@ void Canvas::line(std::span<const vec2> points, float width, Rgb8 color, bool da
                            static_cast<int>(hi.x - lo.x) + 2, static_cast<int>(hi.y - lo.y) + 2},
                           clip_);
   if (all.width == 0 || all.height == 0) return;
-  // The union of all strokes first, so that none is blended twice where two meet.
+  // First the union of all strokes, so that overlaps are not blended twice.
   std::vector<float> coverage(static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height));
   for (auto [a, b] : segments) {
     const vec2 l = glm::min(a, b) - reach, h = glm::max(a, b) + reach;

@@ -1,6 +1,6 @@
 #pragma once
-// An 8-bit picture to draw figures on: pictures, rectangles, smooth lines and text. A pure function of what
-// is drawn: the same calls give the same bytes.
+// An 8-bit picture to draw on: pictures, rectangles, antialiased lines and text. The same calls give the same
+// bytes.
 
 #include "app/figures/plot.h"
 #include "app/figures/typeface.h"
@@ -26,15 +26,15 @@ public:
 
   const RgbPicture& picture() const { return picture_; }
 
-  /// What is drawn later stays within the box.
+  /// Clips later drawing to the box.
   void clip(const Box& box);
   void fill(const Box& box, Rgb8 color);
-  /// A frame of the given thickness, inside of the box.
+  /// A frame of the given thickness, inside the box.
   void frame(const Box& box, int thickness, Rgb8 color);
-  /// The part of the picture over the box: each pixel the mean of the part that it covers, so whole
-  /// magnifications have hard pixels and reductions are smooth.
+  /// Scales the part of the picture to the box. Each pixel is the mean of the area that it covers, so integer
+  /// magnifications have sharp pixels and reductions are smooth.
   void draw(const RgbPicture& picture, const Box& part, const Box& where);
-  /// A line of round ends through the points, smooth at its edges.
+  /// An antialiased line with round ends through the points.
   void line(std::span<const vec2> points, float width, Rgb8 color, bool dashed);
   void dot(vec2 center, float radius, Rgb8 color);
   void text(const Typeface& face, std::string_view text, float size, vec2 top_left, Rgb8 color);

@@ -10,12 +10,12 @@ namespace {
 // Lengths at scale 1, pixels.
 constexpr float kFigureTitle = 20, kPanelTitle = 16, kCaption = 14;
 constexpr float kMargin = 14, kGap = 14, kSmallGap = 6;
-constexpr float kLeastPanel = 190;                   // narrower ones could not hold their captions
-constexpr float kPlotWidth = 440, kPlotHeight = 320; // where no picture sets the size
+constexpr float kLeastPanel = 190;                   // narrower panels could not hold their captions
+constexpr float kPlotWidth = 440, kPlotHeight = 320; // without a picture that sets the size
 constexpr float kBarHeight = 12;
 constexpr Rgb8 kGround{255, 255, 255}, kText{25, 25, 25}, kDim{80, 80, 80};
 
-/// The lines of a text no wider than `room`, broken at spaces; a word that is too long is broken anywhere.
+/// Breaks a text at spaces into lines no wider than `room`; breaks longer words anywhere.
 std::vector<std::string> broken_lines(const Typeface& face, std::string_view text, float size, float room) {
   std::vector<std::string> lines;
   std::string line;
@@ -52,14 +52,14 @@ std::vector<std::string> broken_lines(const Typeface& face, std::string_view tex
 
 int whole(float x) { return static_cast<int>(std::lround(x)); }
 
-/// Lays the grid out from top to bottom, row by row; equal parts of a row's panels stand on one line.
+/// Lays out the grid row by row from the top; corresponding parts of a row's panels are aligned.
 class Arranger {
 public:
   Arranger(const Figure& figure, const Typeface& face) : figure_(figure), face_(face) {}
 
   FigureLayout run() {
     const std::size_t count = figure_.panels.size();
-    std::size_t narrow = 0; // panels that share rows
+    std::size_t narrow = 0; // number of panels that share rows
     for (const FigurePanel& panel : figure_.panels) narrow += !panel.whole_row;
     narrow = std::max<std::size_t>(narrow, 1);
     columns_ = figure_.columns > 0 ? std::min(static_cast<std::size_t>(figure_.columns), narrow) : narrow;
@@ -104,7 +104,7 @@ private:
     return {figure_.picture_width, std::max(1, static_cast<int>(std::lround(shrink * p.height)))};
   }
 
-  /// Of the picture, or what a plot needs.
+  /// Size of the picture, or of a plot.
   ivec2 content_size(std::size_t panel) const {
     const FigurePanel& p = figure_.panels[panel];
     if (!p.plot) return picture_size(p.picture);
@@ -139,7 +139,7 @@ private:
     }
     y_ = lowest + (lowest > y_ ? small / 2 : 0);
 
-    // Pictures and their details set the height; plots take all of it.
+    // Pictures and their details determine the height; plots fill it.
     int height = 0;
     for (std::size_t i = first; i < last; ++i)
       if (!figure_.panels[i].plot)
@@ -153,7 +153,7 @@ private:
         continue;
       }
       const ivec2 size = picture_size(panel.picture);
-      if (size.x <= 0) continue; // a place that stays empty
+      if (size.x <= 0) continue; // an empty cell
       layout_.items.push_back({FigureItem::Kind::picture, i, 0, {left(i), y_, size.x, size.y}, {}, 0});
       details(i, {left(i), y_ + size.y + small});
     }
@@ -275,7 +275,7 @@ ColorBar color_bar(ColorMap map, const PlotScale& scale, std::string label) {
   return bar;
 }
 
-// Light, strong colours that show on dark and bright pictures.
+// Light, saturated colours that are visible on dark and bright pictures.
 Rgb8 detail_color(std::size_t index) {
   constexpr Rgb8 kColors[] = {{230, 159, 0}, {86, 180, 233}, {0, 190, 130}, {204, 121, 167}};
   return kColors[index % std::size(kColors)];

@@ -1,6 +1,6 @@
 #pragma once
-// Figures as papers and lessons have them: pictures and plots in a grid, with titles, captions, magnified
-// details and colour bars. Pure functions: the same figure gives the same bytes.
+// Figures for papers and lessons: pictures and plots in a grid, with titles, captions, magnified details and
+// colour bars. Pure functions: the same figure gives the same bytes.
 
 #include "app/figures/canvas.h"
 #include "imaging/color_map.h"
@@ -11,7 +11,7 @@
 
 namespace candela {
 
-/// What the colours of a false-colour picture mean: a bar beneath it.
+/// The legend below a false-colour picture.
 struct ColorBar {
   std::vector<Rgb8> colors; ///< from left to right
   PlotScale scale;
@@ -21,32 +21,32 @@ struct ColorBar {
 /// The bar of a colour map.
 ColorBar color_bar(ColorMap map, const PlotScale& scale, std::string label);
 
-/// A picture or a plot, with what is said about it.
+/// A picture or a plot with its texts.
 struct FigurePanel {
   std::string title;                ///< above, may be empty
   std::vector<std::string> caption; ///< lines beneath
-  RgbPicture picture;               ///< empty where there is a plot, or nothing
+  RgbPicture picture;               ///< empty for a plot or an empty panel
   std::optional<Plot> plot;
   std::optional<ColorBar> bar;
-  bool whole_row = false; ///< stands alone in its row, across all columns
+  bool whole_row = false; ///< spans all columns
 };
 
 struct Figure {
   std::string title; ///< may be empty
   int columns = 0;   ///< 0: all panels in one row
   float scale = 1;   ///< of text, lines and gaps; 1 is text of 15 pixels
-  /// Width that pictures are brought to, pixels: magnified by the largest whole number that stays below it,
-  /// or reduced. 0: one to one.
+  /// Width that pictures are scaled to, pixels: magnified by the largest integer that fits, or reduced. 0:
+  /// not scaled.
   int picture_width = 0;
   std::vector<Box> details; ///< parts of every picture, in its pixels, shown magnified beneath it
   std::vector<FigurePanel> panels;
 };
 
-/// What is drawn where. Items do not overlap, and all lie within the figure.
+/// The position of an item. Items do not overlap, and all lie within the figure.
 struct FigureItem {
   enum class Kind { title, panel_title, picture, detail, plot, bar, caption } kind = Kind::title;
-  std::size_t panel = 0;  ///< which one of the panels, of all but the title
-  std::size_t detail = 0; ///< which one of the details
+  std::size_t panel = 0;  ///< index of the panel; unused by the title
+  std::size_t detail = 0; ///< index of the detail
   Box box;
   std::string text; ///< of title, panel_title, caption
   float text_size = 0;

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMaxBytes = std::size_t{1} << 24;
 constexpr int kMaxSpp = 1 << 24;
 constexpr std::uint32_t kMaxFigures = 1000, kMaxPanels = 64, kMaxDetails = 8, kMaxPlotPoints = 64;
-/// Of all panels of a figure together.
+/// Limit of the pixels of all panels of a figure.
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 27;
 
 class GalleryReader {
@@ -148,7 +148,7 @@ private:
       return input_error(object.where(), element, cause, remedy);
     };
     const bool compares = figure.reference || figure.difference || figure.plot || !figure.details.empty();
-    if (figure.plain && compares) throw refuse("a plain picture has nothing beside it", "give it \"panels\"");
+    if (figure.plain && compares) throw refuse("a plain picture has no reference", "give it \"panels\"");
     if ((figure.difference || figure.plot) && !figure.reference)
       throw refuse("difference and plot need a reference", "give it a \"reference\"");
     const auto pixels = std::int64_t{figure.size.x} * figure.size.y;
@@ -270,7 +270,7 @@ private:
       int v[4] = {0, 0, 0, 0};
       int i = 0;
       for (JsonValue part : box) {
-        // Within the picture, however wide and high it is from there on.
+        // The box must lie within the picture.
         const int side = i % 2 == 0 ? out.size.x : out.size.y;
         const int most = i < 2 ? side - 1 : side - v[i - 2];
         v[i] = read_integer(part, own, i < 2 ? 0 : 1, most);

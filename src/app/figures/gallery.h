@@ -1,6 +1,5 @@
 #pragma once
-// A file of figures that can be made again: which scenes, which settings, side by side, against which
-// reference.
+// A file that describes reproducible figures: scenes and settings side by side, compared with a reference.
 //
 //   {
 //     "gallery": 1,
@@ -27,10 +26,10 @@
 // A figure without panels is that one render as a plain picture. All but "name" and "scene" may be left out;
 // size and spp are the scene's then. Settings are the keys of settings_table(), as for --set (size and spp
 // have their own keys); those of a panel come over those of its figure. A panel may name a scene of its own,
-// but not beside a reference. With a reference, captions tell the relMSE, "difference" shows the relative
-// error of every panel in false colour, and "plot" draws relMSE over samples or seconds at the listed samples
-// a pixel. "details" are [x, y, width, height] in pixels. Scenes are named relative to the file and lie in
-// its folder's tree. Comments are allowed.
+// but not in a figure with a reference. With a reference, captions state the relMSE, "difference" shows the
+// relative error of every panel in false colour, and "plot" draws relMSE over samples or seconds at the
+// listed samples a pixel. "details" are [x, y, width, height] in pixels. Scenes are named relative to the
+// file and lie in its folder's tree. Comments are allowed.
 
 #include "app/figures/canvas.h"
 #include "scene/document.h"
@@ -60,19 +59,19 @@ struct GalleryPlot {
 };
 
 struct GalleryFigure {
-  std::string name; ///< of the file: letters, digits, '-' and '_'
+  std::string name; ///< name of the file: letters, digits, '-' and '_'
   std::string title;
-  bool plain = false; ///< one render, without words
+  bool plain = false; ///< one render without texts
   ivec2 size{0};      ///< 0: the scene's
   int columns = 0;
-  std::vector<GalleryPanel> panels; ///< one at least
+  std::vector<GalleryPanel> panels; ///< at least one
   std::vector<Box> details;
   std::optional<GalleryReference> reference;
   bool difference = false;
   std::optional<GalleryPlot> plot;
 };
 
-/// Reads the file; errors have the line and column of what is wrong. Scenes are looked for, not opened.
+/// Reads the file; errors have line and column. Scenes must exist but are not opened.
 std::vector<GalleryFigure> read_gallery(const std::string& path);
 
 } // namespace candela

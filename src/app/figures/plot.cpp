@@ -105,7 +105,7 @@ std::vector<PlotTick> ticks(const PlotScale& scale, int most) {
 
 std::string plot_number(double value) {
   if (value != 0 && (std::abs(value) < 1e-4 || std::abs(value) >= 1e6)) {
-    // "1e-05" is "1e-5" to people.
+    // Write "1e-05" as "1e-5".
     std::string text = fmt::format("{:.3g}", value);
     const auto e = text.find('e');
     if (e == std::string::npos) return text;
@@ -128,7 +128,7 @@ PlotSeries inverse_guide(const Plot& plot, std::string label) {
     for (const PlotPoint& p : series.points) {
       if (series.guide || !shown(plot, p) || p.x == 0) continue;
       const PlotScale x = x_scale(plot);
-      constexpr int kSteps = 32; // it is no straight line on linear axes
+      constexpr int kSteps = 32; // a curve on linear axes
       for (int i = 0; i <= kSteps; ++i) {
         const double at = x.value(static_cast<double>(i) / kSteps);
         if (at != 0) guide.points.push_back({at, p.y * p.x / at});
@@ -139,7 +139,7 @@ PlotSeries inverse_guide(const Plot& plot, std::string label) {
 }
 
 vec2 PlotFrame::position(PlotPoint p) const {
-  // Far outside is far enough: screen coordinates must stay finite.
+  // Clamped far outside, so that screen coordinates stay finite.
   auto within = [](double f) { return static_cast<float>(std::clamp(f, -4.0, 5.0)); };
   return {lo.x + within(x.fraction(p.x)) * (hi.x - lo.x), hi.y - within(y.fraction(p.y)) * (hi.y - lo.y)};
 }
@@ -168,7 +168,7 @@ std::vector<std::pair<vec2, vec2>> strokes_of(std::span<const vec2> points, floa
 std::string fitted_text(const PlotPainter& painter, std::string_view text, float room) {
   if (painter.text_width(text) <= room) return std::string(text);
   while (!text.empty()) {
-    std::size_t end = text.size() - 1; // a whole character: its later bytes are 10xxxxxx
+    std::size_t end = text.size() - 1; // whole characters: continuation bytes are 10xxxxxx
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
     text = text.substr(0, end);
     std::string shorter = std::string(text) + "…";
@@ -214,7 +214,7 @@ void Layout::axes(vec2 lo, vec2 hi) {
     painter.text({lo.x, top}, fitted_text(painter, plot.title, hi.x - lo.x), colors.text);
     top += line + pad;
   }
-  // The label of y stands over its axis, where it need not be turned to be read.
+  // The label of y is above its axis, so that it need not be rotated.
   painter.text({lo.x, top}, fitted_text(painter, plot.y.label, hi.x - lo.x), colors.dim);
   top += line + pad;
   const float bottom = hi.y - 2 * line - 2 * pad;
@@ -240,7 +240,7 @@ void Layout::axes(vec2 lo, vec2 hi) {
     const vec2 rule[] = {{x, frame.lo.y}, {x, frame.hi.y}};
     painter.line(rule, colors.grid, u, false);
     const float left = std::clamp(x - 0.5f * width, lo.x, std::max(lo.x, hi.x - width));
-    if (left < free_from) continue; // there is no room for its number
+    if (left < free_from) continue; // no room for its number
     painter.text({left, frame.hi.y + pad}, t.text, colors.dim);
     free_from = left + width + pad;
   }
@@ -278,7 +278,7 @@ void Layout::legend() {
   }
   const vec2 size(sample + 3 * pad + widest, static_cast<float>(labels.size()) * (line + 2 * u) + pad);
   if (labels.empty() || size.y > area.y) return;
-  // The corner where it covers the fewest points of the lines, the upper right one if in doubt: errors fall.
+  // The corner where it covers the fewest points, preferably the upper right: errors fall to the right.
   const vec2 corners[] = {{frame.hi.x - size.x - pad, frame.lo.y + pad},
                           frame.lo + pad,
                           frame.hi - size - pad,

@@ -1,5 +1,5 @@
 #pragma once
-// Line plots as data, and one layout of them for the window (plot_widget.h) and for figures (figure.h).
+// Line plots as data, with one layout for the window (plot_widget.h) and for figures (figure.h).
 
 #include "core/math.h"
 
@@ -23,13 +23,13 @@ struct PlotPoint {
 struct PlotSeries {
   std::string label;
   std::vector<PlotPoint> points;
-  bool guide = false; ///< a thin dashed grey line that says how others should run
+  bool guide = false; ///< a thin dashed grey line: the expected slope of the others
 };
 
 struct PlotAxis {
   std::string label;
   bool logarithmic = false;
-  bool from_zero = false; ///< a linear axis shows 0, too, so that heights can be compared
+  bool from_zero = false; ///< a linear axis includes 0, so that heights can be compared
 };
 
 /// Points that are not finite, or not positive on a logarithmic axis, are left out.
@@ -39,8 +39,8 @@ struct Plot {
   std::vector<PlotSeries> series;
 };
 
-/// Okabe and Ito's colours ("Color Universal Design", 2008), distinguishable for the colour-blind, too;
-/// lighter on dark ground. Begins anew after seven.
+/// Okabe and Ito's colours ("Color Universal Design", 2008), distinguishable for the colour-blind; lighter on
+/// dark backgrounds. Repeats after seven.
 Rgb8 plot_color(std::size_t index, bool dark_ground = false);
 
 /// The part of an axis that is shown.
@@ -58,22 +58,22 @@ struct PlotTick {
   std::string text;
 };
 
-/// The scales that hold all points of the series that are no guides with a small margin; something sensible
-/// where there are none.
+/// The scales that hold all points of the series, except guides, with a small margin; defaults if there are
+/// no points.
 PlotScale x_scale(const Plot& plot);
 PlotScale y_scale(const Plot& plot);
 
-/// Round values within the scale, at most `most` (>= 2) of them: decades, or 1-2-5 steps where it spans few.
+/// Round values within the scale, at most `most` (>= 2): decades, or 1-2-5 steps if it spans few decades.
 std::vector<PlotTick> ticks(const PlotScale& scale, int most);
 
 /// "0.00125", "3.2e-7": short, four digits.
 std::string plot_number(double value);
 
 /// The guide y = c / x over the plot's range, through the first point of its first series: how the mean
-/// squared error of independent samples falls. Empty where there is no point.
+/// squared error of independent samples falls. Empty without points.
 PlotSeries inverse_guide(const Plot& plot, std::string label);
 
-/// What a plot is drawn with. Positions are pixels from the top left.
+/// The drawing operations of a plot. Positions are pixels from the top left.
 class PlotPainter {
 public:
   virtual ~PlotPainter() = default;
@@ -83,16 +83,16 @@ public:
   virtual void fill(vec2 lo, vec2 hi, Rgb8 color) = 0;
   virtual void line(std::span<const vec2> points, Rgb8 color, float width, bool dashed) = 0;
   virtual void dot(vec2 center, float radius, Rgb8 color) = 0;
-  /// What is drawn until the next call stays within the rectangle.
+  /// Clips drawing to the rectangle until the next call.
   virtual void clip(vec2 lo, vec2 hi) = 0;
 };
 
 struct PlotTheme {
-  float unit = 1; ///< pixels of a hair line; all distances grow with it
+  float unit = 1; ///< pixels of a hairline; all distances scale with it
   bool dark = false;
 };
 
-/// Where the data came to lie, for read-outs.
+/// The data's position in the plot, for read-outs.
 struct PlotFrame {
   vec2 lo{0}, hi{0}; ///< of the area inside the axes
   PlotScale x, y;
@@ -103,10 +103,10 @@ struct PlotFrame {
 /// [lo, hi].
 PlotFrame draw_plot(const Plot& plot, vec2 lo, vec2 hi, const PlotTheme& theme, PlotPainter& painter);
 
-/// The strokes of a line: dashes of that length with gaps as long between them; 0: all of it.
+/// The strokes of a line: dashes of that length with gaps of the same length; 0: solid.
 std::vector<std::pair<vec2, vec2>> strokes_of(std::span<const vec2> points, float dash);
 
-/// The text, its end replaced by an ellipsis where it is wider than `room`.
+/// The text, shortened with an ellipsis if it is wider than `room`.
 std::string fitted_text(const PlotPainter& painter, std::string_view text, float room);
 
 } // namespace candela

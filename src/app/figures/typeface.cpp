@@ -38,7 +38,7 @@ constexpr std::array kFallbacks = {
     "/usr/share/fonts/opentype/unifont/unifont.otf",
 };
 
-/// Takes the first code point off a UTF-8 text; a byte that begins none is U+FFFD.
+/// Removes the first code point from a UTF-8 text; an invalid byte is U+FFFD.
 int next_code_point(std::string_view& text) {
   auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned first = byte(0);

@@ -1,5 +1,5 @@
 #pragma once
-// The scalable typeface of window and figures, and its glyphs as coverage for figures.
+// The scalable typeface of window and figures, and coverage bitmaps of its glyphs.
 
 #include <cstdint>
 #include <filesystem>
@@ -9,15 +9,15 @@
 
 namespace candela {
 
-/// The best of the typefaces of Debian's font packages with tabular digits (so that running numbers stand
-/// still) that is installed; empty if none is.
+/// The preferred installed typeface of Debian's font packages with tabular digits (changing numbers do not
+/// jitter); empty if none is installed.
 std::filesystem::path find_typeface();
 
-/// Of the typefaces that have the letters of other scripts, those that are installed, the best first: Noto's
-/// and others for Chinese, Japanese and Korean, DejaVu for the rest.
+/// The installed typefaces for other scripts in order of preference: Noto and others for Chinese, Japanese
+/// and Korean, DejaVu for the rest.
 std::vector<std::filesystem::path> find_fallback_typefaces();
 
-/// The code points of a UTF-8 text; a byte that begins none is U+FFFD.
+/// The code points of a UTF-8 text; invalid bytes are U+FFFD.
 std::vector<char32_t> code_points(std::string_view text);
 
 /// A TrueType file. Const, so that several threads may draw with one.
@@ -28,15 +28,15 @@ public:
   ~Typeface();
   Typeface(Typeface&&) noexcept;
 
-  /// That of find_typeface(); an Error with ExitCode::display that names the package to install if there is
-  /// none.
+  /// The typeface of find_typeface(); if there is none, an Error with ExitCode::display that names the
+  /// package to install.
   static Typeface installed();
 
   bool has(char32_t code_point) const;
 
-  /// Pixels from the pen's start to its end, for UTF-8 text of a size (ascent plus descent, pixels).
+  /// The advance width in pixels of UTF-8 text of a size (ascent plus descent, pixels).
   float text_width(std::string_view text, float size) const;
-  /// Pixels from the top of a line to its base line.
+  /// Pixels from the top of a line to its baseline.
   float ascent(float size) const;
 
   struct Glyph {
@@ -44,7 +44,7 @@ public:
     int width = 0, height = 0;
     std::vector<std::uint8_t> coverage; ///< 0 .. 255, row by row
   };
-  /// The glyphs of a text whose line begins at (x, top), placed to a fraction of a pixel along the line.
+  /// The glyphs of a text whose line begins at (x, top), with subpixel positions along the line.
   std::vector<Glyph> glyphs(std::string_view text, float size, float x, float top) const;
 
 private:

@@ -49,7 +49,7 @@ void OrbitView::drag() {
 vec3 OrbitView::to_view(vec3 w) const {
   const float ca = std::cos(azimuth_), sa = std::sin(azimuth_);
   const float ce = std::cos(elevation_), se = std::sin(elevation_);
-  // The eye's direction is (ce ca, ce sa, se); right is (-sa, ca, 0).
+  // The view direction is (ce ca, ce sa, se); right is (-sa, ca, 0).
   return {ca * w.y - sa * w.x, ce * w.z - se * (ca * w.x + sa * w.y), se * w.z + ce * (ca * w.x + sa * w.y)};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the lab's pages draw with: framed canvases of ImGui's draw lists, a view that the mouse turns, maps of
+// Drawing for the lab's pages: framed canvases on ImGui's draw lists, a view that the mouse rotates, maps of
 // numbers.
 
 #include "app/ui/widgets.h"
@@ -16,7 +16,7 @@ namespace candela {
 struct Canvas {
   ImDrawList* list = nullptr;
   vec2 lo{0}, hi{0};           ///< pixels
-  vec2 data_lo{0}, data_hi{1}; ///< what lies at the bottom left and at the top right
+  vec2 data_lo{0}, data_hi{1}; ///< data coordinates at the bottom left and the top right
 
   ImVec2 at(vec2 data) const {
     const vec2 t = (data - data_lo) / (data_hi - data_lo);
@@ -28,17 +28,17 @@ struct Canvas {
   void dot(vec2 p, float pixels, ImU32 color) const;
 };
 
-/// Takes `size` pixels of the window, which the mouse may press and drag, and records them under `name`.
-/// Drawing is clipped to it until end_canvas().
+/// Reserves `size` pixels of the window that react to the mouse, and records them under `name`. Drawing is
+/// clipped to them until end_canvas().
 Canvas begin_canvas(Ui& ui, const char* name, vec2 size, vec2 data_lo, vec2 data_hi);
 void end_canvas(const Canvas& canvas);
 
-/// Looks at the origin from a direction that dragging with the left button turns; z is up.
+/// A view of the origin that dragging with the left button rotates; z is up.
 class OrbitView {
 public:
-  /// To be called after begin_canvas().
+  /// Called after begin_canvas().
   void drag();
-  /// x to the right, y up, z towards the eye.
+  /// x to the right, y up, z towards the viewer.
   vec3 to_view(vec3 world) const;
   vec2 project(vec3 world) const { return vec2(to_view(world)); }
 
@@ -46,14 +46,14 @@ private:
   float azimuth_ = radians(-60.0f), elevation_ = radians(25.0f);
 };
 
-/// Circle of radius 1 about the origin and cross in the plane z = 0.
+/// A circle of radius 1 about the origin and a cross, in the plane z = 0.
 void draw_ground(const Canvas& canvas, const OrbitView& view);
-/// The unit sphere's outline and some meridians and parallels, or those of its upper half.
+/// The unit sphere's outline with meridians and parallels, or those of its upper half.
 void draw_globe(const Canvas& canvas, const OrbitView& view, bool upper_half);
 void draw_arrow(const Canvas& canvas, const OrbitView& view, vec3 from, vec3 to, ImU32 color, float width);
 
-/// A map of columns x rows numbers, row 0 at the top, where viridis ends at `most`; its square root is
-/// coloured, so that faint parts show.
+/// A map of columns x rows numbers, row 0 at the top. The colours of viridis show square roots from 0 to that
+/// of `most`, so that small values are visible.
 void number_map(Ui& ui, const char* name, const char* title, std::span<const double> values, int columns,
                 int rows, double most, vec2 size);
 

@@ -1,6 +1,5 @@
 #pragma once
-// What the lessons are given, from the settings' and the materials' own tables: shared by the command and the
-// panel.
+// Inputs of the lessons, from the tables of settings and materials, for the command and the panel.
 
 #include "lab/source.h"
 #include "materials/bsdf.h"
@@ -14,11 +13,11 @@ namespace candela {
 std::vector<const Field<Document>*> sampler_rows();
 SampleSource sample_source(const SamplerSettings& settings);
 
-/// The material that the lesson `brdf` begins with, which shows something of every type.
+/// The initial material of the lesson `brdf`, with visible values for every type.
 MaterialChoice lab_material();
-/// Rows that say how a material scatters at its surface: its type and its parameters.
+/// Rows of a material's surface scattering: its type and its parameters.
 std::span<const Field<MaterialChoice>> scattering_rows();
-/// Whether a material of the type looks at the row.
+/// Whether materials of the type have the row.
 bool scattering_uses(int type, std::string_view key);
 Bsdf lab_bsdf(const MaterialChoice& material);
 

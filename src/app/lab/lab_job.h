@@ -1,5 +1,5 @@
 #pragma once
-// A lesson that runs beside the UI thread, slice by slice, for as long as somebody looks.
+// A lesson that runs in slices on another thread while its page is shown.
 
 #include "app/platform/task_thread.h"
 
@@ -9,9 +9,9 @@
 
 namespace candela {
 
-/// What is shown is a copy that no longer changes; the next slice begins from it, so that closing the panel
-/// loses nothing, and the lesson does not depend on the slices. Of the UI thread; it must outlive the
-/// completions of the TaskThread that it is given.
+/// The page shows an immutable copy, from which the next slice continues. So closing the panel loses nothing,
+/// and the result does not depend on the slices. Used on the UI thread; it must outlive the completions of
+/// its TaskThread.
 template <class Lesson>
 class LabJob {
 public:
@@ -19,7 +19,7 @@ public:
   LabJob(const LabJob&) = delete;
   LabJob& operator=(const LabJob&) = delete;
 
-  /// Begins a new lesson, which `make` makes on the task thread. The old one is shown until then.
+  /// Begins a new lesson, which `make` constructs on the task thread. Until then the old one is shown.
   void start(std::function<Lesson()> make) {
     make_ = std::move(make);
     ++generation_;
@@ -29,7 +29,7 @@ public:
   /// Null before the first slice.
   const Lesson* shown() const { return lesson_.get(); }
 
-  /// Posts the next slice if there is one and none is under way.
+  /// Posts the next slice, if there is one and none is running.
   void step(TaskThread& worker) {
     if (in_flight_ || !busy()) return;
     in_flight_ = true;

@@ -19,7 +19,7 @@ std::string_view sampler_name(SamplerType type) {
   return find_setting("sampler.type")->choices[static_cast<std::size_t>(type)];
 }
 
-/// Lines of the text and members of the JSON, written side by side.
+/// Collects lines of the text and members of the JSON.
 class Writer {
 public:
   explicit Writer(std::string_view lesson_name) {
@@ -45,7 +45,7 @@ public:
   }
   void field(const FieldInfo& row, const std::string& value) {
     line(row.key, value);
-    // Numbers read as JSON as they are; names and vectors stay text.
+    // Numbers are valid JSON as they are; names and vectors become strings.
     const bool number =
         row.type == FieldType::integer || row.type == FieldType::real || row.type == FieldType::angle;
     json(row.key) = number ? ordered_json::parse(value) : ordered_json(value);
@@ -134,9 +134,9 @@ void coordinates(ordered_json& json, const PointsOptions& options) {
 std::string verdict(const ChiSquareResult& test) {
   const double p = test.p_value;
   if (test.degrees_of_freedom == 0 && p > 0) return "no density to test, or too few samples";
-  if (p < 1e-6) return "the pdf is not what is sampled";
+  if (p < 1e-6) return "the samples do not follow the pdf";
   if (p < 1e-3) return "doubtful: try other seeds";
-  if (p > 1 - 1e-3) return "fits; samples more even than chance";
+  if (p > 1 - 1e-3) return "fits; samples more even than independent ones";
   return "the pdf fits";
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What `candela lab` prints, as text and as JSON.
+// The output of `candela lab`, as text and as JSON.
 
 #include "lab/brdf.h"
 #include "lab/experiments.h"
@@ -21,12 +21,12 @@ LabReport report(const Estimation<IntegralExperiment>& lesson);
 LabReport report(const WarpLesson& lesson);
 LabReport report(const BrdfLesson& lesson, const MaterialChoice& material);
 
-/// The points themselves; the text is CSV.
+/// The points; the text is CSV.
 LabReport report_points(const PointsOptions& options, const SampleSource& source, std::uint32_t count);
 /// Discrepancy over N of every sampler, in SamplerType's order; the text is CSV.
 LabReport report_discrepancies(std::span<const DiscrepancyCurve> curves);
 
-/// What a chi-square test means, in words.
+/// A chi-square test's result in words.
 std::string verdict(const ChiSquareResult& test);
 
 } // namespace candela

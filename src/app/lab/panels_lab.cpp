@@ -11,7 +11,7 @@ namespace candela {
 
 namespace {
 
-constexpr float kWidth = 452; // at scale 1: half of what a small window leaves for the picture
+constexpr float kWidth = 452; // at scale 1: half of the picture in a small window
 
 std::unique_ptr<LabPage> make_page(std::string_view lesson_name) {
   if (lesson_name == "pi") return make_pi_page();
@@ -74,7 +74,7 @@ void LabPanel::draw(Ui& ui, bool& visible, vec2 position, vec2 room) {
       ImGui::PopStyleColor();
     }
     ImGui::SameLine(std::max(ImGui::GetWindowContentRegionMax().x - close, 1.0f));
-    if (ui.button("lab.close", "Close", "F2; the lesson stops, and goes on when it is shown again", close))
+    if (ui.button("lab.close", "Close", "F2; the lesson pauses and continues when it is shown again", close))
       visible = false;
     ImGui::PushTextWrapPos();
     ImGui::TextUnformatted(look_at.c_str());

@@ -23,8 +23,8 @@ struct Samples {
 const Field<Samples> kSamplesField = {{"samples", FieldType::integer, 1, 1e9, "", "Samples to draw"},
                                       [](Samples& o) -> void* { return &o.samples; }};
 
-/// The test's numbers, and the counts beside what the density makes of them. `measure` is a cell's area or
-/// solid angle, so that what is coloured is a density; only the first `rows` are shown.
+/// The test's numbers, and the counts next to those expected of the density. They are divided by `measure`, a
+/// cell's area or solid angle, to show densities. Only the first `rows` rows are shown.
 template <class Measure>
 void histogram_maps(Ui& ui, const Histogram& h, int rows, const Measure& measure) {
   const ChiSquareResult test = h.chi_square();
@@ -87,8 +87,8 @@ private:
     WarpOptions options;
     bool operator==(const Inputs&) const = default;
   };
-  static constexpr int kLines = 8;               // of the grid, each way
-  static constexpr std::uint64_t kPoints = 1024; // that are shown
+  static constexpr int kLines = 8;               // grid lines in each direction
+  static constexpr std::uint64_t kPoints = 1024; // shown points
 
   void restart_what_changed(const SampleSource& source) {
     const Inputs inputs{source, static_cast<std::uint64_t>(samples_.samples), options_};
@@ -118,7 +118,7 @@ private:
   void draw_domain(Ui& ui, const WarpLesson& lesson, float side) {
     const bool turns = lesson.warp().on_sphere() || options_.warp == Warp::spherical_rectangle;
     ImGui::BeginGroup();
-    ImGui::TextDisabled("%s", turns ? "where it goes (drag to turn)" : "where it goes");
+    ImGui::TextDisabled("%s", turns ? "mapped points (drag to rotate)" : "mapped points");
     vec2 lo(-1.1f), hi(1.1f);
     if (options_.warp == Warp::triangle) lo = {-0.05f, -0.12f}, hi = {1.05f, 0.98f};
     const Canvas canvas = begin_canvas(ui, "lab.domain", vec2(side), lo, hi);
@@ -126,7 +126,7 @@ private:
       view_.drag();
       draw_globe(canvas, view_, options_.warp != Warp::sphere && options_.warp != Warp::cone);
     }
-    // The rectangle is seen by its directions: those are what is uniform.
+    // Show the directions to the rectangle, since the sampling is uniform in them.
     auto place = [&](vec3 p) {
       if (options_.warp == Warp::spherical_rectangle) p = glm::normalize(p);
       return turns ? view_.to_view(p) : p;
@@ -140,7 +140,7 @@ private:
           const float t = std::min(static_cast<float>(i) / kLines, kOneMinusEpsilon);
           const float s = std::min(static_cast<float>(step) / kSteps, kOneMinusEpsilon);
           const vec3 p = place(lesson.warp().map(vertical ? vec2(t, s) : vec2(s, t)));
-          const bool jumps = last && glm::length(p - *last) > 0.5f; // a seam of the map
+          const bool jumps = last && glm::length(p - *last) > 0.5f; // a discontinuity of the map
           if (last && !jumps) {
             const ImU32 color = vertical ? kLabMiss : kLabHit;
             const ImU32 faint = (color & ~IM_COL32_A_MASK) | (70u << IM_COL32_A_SHIFT);
@@ -177,7 +177,7 @@ public:
     lab_field(ui, kSamplesField, samples_, Samples{});
     restart_what_changed(sample_source(sampler.settings.sampler));
 
-    ImGui::TextDisabled("f cos in every direction: drag to turn it, right-drag to tilt wo");
+    ImGui::TextDisabled("f cos in every direction: drag to rotate, right-drag to tilt wo");
     const float width = ImGui::GetContentRegionAvail().x, height = std::min(0.72f * width, 320 * ui.scale());
     const float aspect = width / height;
     const Canvas canvas = begin_canvas(ui, "lab.lobe", {width, height}, vec2(-1.15f * aspect, -1.0f),
@@ -233,8 +233,8 @@ private:
     draw_arrow(canvas, view_, vec3(0), {0, 0, 1.15f}, IM_COL32(150, 150, 150, 255), 1.2f * unit);
     const Bsdf bsdf = lab_bsdf(material_);
     const vec3 wo = options_.wo();
-    // The surface r(wi) = f cos, scaled to reach 1, over polar coordinates about the mirror direction whose
-    // rows crowd there, where lobes are narrow.
+    // The surface r(wi) = f cos, scaled to a maximum of 1, over polar coordinates about the mirror direction,
+    // with denser rows there because lobes may be narrow.
     constexpr int kColumns = 64, kRows = 44;
     const Basis about = Basis::from_normal(reflect_about_normal(wo));
     std::vector<vec3> values, directions;
@@ -277,9 +277,9 @@ private:
           quad.color = IM_COL32(static_cast<int>(225 * tint.x), static_cast<int>(225 * tint.y),
                                 static_cast<int>(225 * tint.z), 255);
         }
-    std::ranges::sort(quads, {}, &Quad::depth); // the nearest last
+    std::ranges::sort(quads, {}, &Quad::depth); // the nearest is drawn last
     const ImDrawListFlags flags = canvas.list->Flags;
-    canvas.list->Flags &= ~ImDrawListFlags_AntiAliasedFill; // its seams would show between the quads
+    canvas.list->Flags &= ~ImDrawListFlags_AntiAliasedFill; // it would leave seams between the quads
     for (const Quad& q : quads)
       canvas.list->AddQuadFilled(q.corners[0], q.corners[1], q.corners[2], q.corners[3], q.color);
     canvas.list->Flags = flags;

@@ -1,4 +1,4 @@
-// The lab's pages on estimates: what was drawn, what came of it, and how the error falls.
+// The lab's pages on estimates: the samples, the estimate, and how its error falls.
 
 #include "app/lab/lab_drawing.h"
 #include "app/lab/lab_job.h"
@@ -33,7 +33,7 @@ const Field<Run> kRunFields[] = {
      [](Run& o) -> void* { return &o.every_sampler; }},
 };
 
-constexpr std::uint64_t kShownDraws = 6000; // more would cover each other
+constexpr std::uint64_t kShownDraws = 6000; // more would overlap
 
 void draw_experiment(const Canvas& canvas, const Estimation<PiExperiment>& lesson, float unit) {
   for (std::uint64_t i = 0; i < std::min(lesson.done(), kShownDraws); ++i) {
@@ -59,7 +59,7 @@ void draw_experiment(const Canvas& canvas, const Estimation<IntegralExperiment>&
   for (int i = 0; i < kSteps; ++i) {
     const float x = (static_cast<float>(i) + 0.5f) / kSteps;
     curve.emplace_back(x, static_cast<float>(experiment.value(static_cast<double>(x))));
-    // Scaled as the function would be: where the two agree, f / pdf is constant.
+    // Scaled by the integral: where the curve equals f, f / pdf is constant.
     density.emplace_back(x, static_cast<float>(experiment.pdf(x) * experiment.expected()));
   }
   for (std::uint64_t i = 0; i < std::min<std::uint64_t>(lesson.done(), 400); ++i) {
@@ -183,7 +183,7 @@ private:
   Run run_;
   typename E::Options options_{};
   std::size_t chosen_ = 0;
-  std::deque<LabJob<Estimation<E>>> jobs_;    // one for each sampler; they do not move
+  std::deque<LabJob<Estimation<E>>> jobs_;    // one for each sampler; a deque keeps their addresses
   std::vector<std::optional<Inputs>> inputs_; // of the jobs
 };
 

@@ -15,7 +15,7 @@ namespace candela {
 
 namespace {
 
-/// Every coordinate of one bounce, as a choice: "film.x", "film.y", "film" (a draw in one dimension), …
+/// The coordinates of a bounce, as a choice: "film.x", "film.y" (of a 2D dimension), "film" (of a 1D one), …
 struct CoordinateNames {
   std::vector<std::string> texts;
   std::vector<std::string_view> views;
@@ -32,7 +32,7 @@ std::span<const std::string_view> coordinate_names() {
 
 struct Inputs {
   int count = 256;
-  int x = 0, y = 1; ///< of coordinate_names()
+  int x = 0, y = 1; ///< index into coordinate_names()
   int bounce_x = 0, bounce_y = 0;
   int pixel_x = 0, pixel_y = 0;
   int columns = 16, rows = 16;
@@ -105,7 +105,7 @@ public:
 private:
   static constexpr std::uint32_t kCurvePoints = 4096;
 
-  /// The curves are of the sampler's every type, of the pixel and the coordinates that are drawn.
+  /// The curves are of every sampler type, for the shown pixel and coordinates.
   void restart_curves(SampleSource source) {
     source.type = SamplerType::independent;
     const PointsOptions options = inputs_.options();
@@ -145,7 +145,7 @@ private:
         canvas.list->AddRectFilled(a, b, missing ? IM_COL32(150, 50, 40, 90) : IM_COL32(230, 210, 140, 60));
       }
     const float pixels = side / static_cast<float>(std::max(columns, rows));
-    if (pixels > 4) { // finer lines would cover all
+    if (pixels > 4) { // finer lines would hide the points
       for (int i = 1; i < columns; ++i)
         canvas.line({box.x * static_cast<float>(i), 0}, {box.x * static_cast<float>(i), 1}, kLabGrid);
       for (int i = 1; i < rows; ++i)
@@ -182,7 +182,7 @@ private:
   Inputs drawn_inputs_;
   std::optional<PointsOptions> curve_options_;
   std::optional<SampleSource> curve_source_;
-  std::deque<LabJob<DiscrepancyCurve>> curves_; // one for each sampler; they do not move
+  std::deque<LabJob<DiscrepancyCurve>> curves_; // one for each sampler; a deque keeps their addresses
 };
 
 } // namespace

@@ -1,6 +1,6 @@
 #pragma once
 // The panels of the column, from top to bottom. Each draws its section with Ui into the current ImGui window
-// and edits the state's Document. A panel is a file of its own and two lines here.
+// and edits the state's Document. Each panel is implemented in a file of its own and listed here.
 
 #include "app/panels/viewer_state.h"
 #include "app/ui/widgets.h"
@@ -15,7 +15,7 @@ void camera_panel(Ui& ui, ViewerState& state);
 void bookmarks_panel(Ui& ui, ViewerState& state);
 /// Every row of the settings table that is not the camera's or the display's, by group.
 void render_panel(Ui& ui, ViewerState& state);
-/// What is placed in the scene: the list, and the selected object's transform and materials.
+/// Objects: their list, and the selected object's transform and materials.
 void objects_panel(Ui& ui, ViewerState& state);
 void materials_panel(Ui& ui, ViewerState& state);
 void lights_panel(Ui& ui, ViewerState& state);

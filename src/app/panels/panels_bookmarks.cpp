@@ -43,7 +43,7 @@ void store_bookmark(ViewerState& state, std::size_t number) {
 
 void bookmarks_panel(Ui& ui, ViewerState& state) {
   if (!ui.section("panel.bookmarks", "Bookmarks", false)) return;
-  constexpr float kRows = 4; // always: what is below must not jump away from the mouse
+  constexpr float kRows = 4; // constant, so that the widgets below do not move
   auto& bookmarks = state.document.scene.bookmarks;
   InspectState& inspect = state.inspect;
   if (ImGui::BeginListBox("##bookmarks", ImVec2(-1, kRows * ImGui::GetTextLineHeightWithSpacing() +
@@ -73,14 +73,14 @@ void bookmarks_panel(Ui& ui, ViewerState& state) {
     state.edited = true;
   }
   if (ui.button("bookmark.add", "Add view",
-                "A new bookmark of the view as it is (Ctrl+1 to Ctrl+9 store, 1 to 9 go there)"))
+                "Adds a bookmark of the current view (Ctrl+1 to Ctrl+9 store, 1 to 9 go there)"))
     store_bookmark(state, bookmarks.size());
   if (!any) return;
   ImGui::SameLine();
-  if (ui.button("bookmark.store", "Store here", "Puts the view as it is into the selected bookmark"))
+  if (ui.button("bookmark.store", "Store here", "Stores the current view in the selected bookmark"))
     store_bookmark(state, selected);
   ImGui::SameLine();
-  if (ui.button("bookmark.delete", "Delete", "Takes the selected bookmark away")) {
+  if (ui.button("bookmark.delete", "Delete", "Removes the selected bookmark")) {
     bookmarks.erase(bookmarks.begin() + static_cast<std::ptrdiff_t>(selected));
     inspect.bookmark_name.clear();
     state.edited = true;

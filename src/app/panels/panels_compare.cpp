@@ -1,4 +1,4 @@
-// The panel of a comparison, and what is written over its pictures.
+// The panel of a comparison, and the labels over its pictures.
 
 #include "app/compare/compare_layout.h"
 #include "app/panels/panel_list.h"
@@ -35,7 +35,7 @@ std::string progress_text(const CompareVariant& variant) {
   return fmt::format("{} spp, {:.1f} s", variant.status.spp, variant.status.render_seconds);
 }
 
-/// With the best that is known of the error.
+/// Progress with the best available error measure.
 std::string variant_text(const CompareVariant& variant) {
   if (variant.rel_mse)
     return fmt::format("{}, relMSE {}", progress_text(variant), plot_number(*variant.rel_mse));
@@ -60,12 +60,11 @@ void error_readouts(Ui& ui, const CompareState& compare) {
     error_readout(ui, compare, &CompareVariant::rel_mse, "relMSE",
                   "The mean over pixels and channels of (x - r)^2 / (r^2 + 0.01), r being the reference: "
                   "noise and bias");
-  error_readout(
-      ui, compare, &CompareVariant::noise, kNoiseName.data(),
-      "The relMSE that each picture's own variance lets expect: the mean over pixels and channels "
-      "of variance / (mean^2 + 0.01).\nIt needs no reference, and therefore cannot see bias, such as "
-      "clamping's: relMSE can. Samplers that distribute their samples well do better "
-      "than it says.");
+  error_readout(ui, compare, &CompareVariant::noise, kNoiseName.data(),
+                "The relMSE estimated from each picture's own variance: the mean over pixels and channels "
+                "of variance / (mean^2 + 0.01).\nIt needs no reference, but does not include bias, such as "
+                "that of clamping; relMSE does. Samplers that distribute their samples well do better "
+                "than it says.");
   ui.record("compare.noise");
 }
 
@@ -76,13 +75,12 @@ void layout_widgets(Ui& ui, CompareState& compare) {
     compare.layout = static_cast<CompareLayout>(layout);
   int zoom = index_of(kZooms, compare.zoom);
   if (ui.choice("compare.zoom", "zoom", zoom, kZoomNames,
-                "Screen pixels a film pixel; drag with the right button to move.\nRestarts nothing."))
+                "Screen pixels per film pixel; drag with the right button to move.\nRestarts nothing."))
     compare.zoom = kZooms[zoom];
   constexpr std::string_view kFair[] = {"samples", "time"};
   int fair = compare.equal_time ? 1 : 0;
-  if (ui.choice(
-          "compare.fairness", "equal", fair, kFair,
-          "What A and B have equally much of, samples or time: the one ahead waits.\nRestarts nothing."))
+  if (ui.choice("compare.fairness", "equal", fair, kFair,
+                "Whether A and B get equal samples or equal time; the one ahead waits.\nRestarts nothing."))
     compare.equal_time = fair == 1;
   constexpr std::string_view kCameras[] = {"shared", "each its own"};
   int camera = compare.share_camera ? 0 : 1;
@@ -114,10 +112,10 @@ void reference_widgets(Ui& ui, CompareState& compare) {
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   const float third = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) / 3);
   if (compare.rendering_reference) {
-    if (ui.button("compare.cancel_reference", "Cancel", "Gives the reference up", third))
+    if (ui.button("compare.cancel_reference", "Cancel", "Stops rendering the reference", third))
       compare.clear_reference_requested = true;
   } else if (ui.button("compare.render_reference", "Render",
-                       "Renders A's settings with other random numbers, beside A and B", third)) {
+                       "Renders A's settings with another seed, together with A and B", third)) {
     compare.render_reference_requested = true;
   }
   for (int variant = 0; variant < 2; ++variant) {
@@ -157,7 +155,7 @@ void compare_panel(Ui& ui, ViewerState& state) {
   for (int variant = 0; variant < 2; ++variant) {
     const CompareVariant& s = compare.variants[static_cast<std::size_t>(variant)];
     ui.readout(variant == 0 ? "A" : "B", progress_text(s),
-               s.label.empty() ? "No setting is its own" : s.label);
+               s.label.empty() ? "No different settings" : s.label);
   }
   error_readouts(ui, compare);
   const float third = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) / 3);
@@ -166,7 +164,7 @@ void compare_panel(Ui& ui, ViewerState& state) {
   if (ui.button("compare.copy_b", "B to A", "A's settings become B's", third)) compare.copy_requested = 1;
   ImGui::SameLine(0, gap);
   if (ui.button("compare.toggle", "Close",
-                fmt::format("Goes on with {} alone (C)", variant_letter(compare.edited)), third))
+                fmt::format("Continues with {} alone (C)", variant_letter(compare.edited)), third))
     compare.toggle_requested = true;
   layout_widgets(ui, compare);
   reference_widgets(ui, compare);
@@ -184,7 +182,7 @@ namespace {
 
 ImVec2 corner(const PixelRect& r) { return {static_cast<float>(r.x), static_cast<float>(r.y)}; }
 
-/// Text on a dark plate, its top left corner at `at`; lines end at `right`.
+/// Text on a dark background with its top left corner at `at`; lines end at `right`.
 void plate(Ui& ui, ImDrawList& list, ImVec2 at, float right, const std::string& text) {
   const float pad = 5 * ui.scale();
   const float room = right - at.x - 2 * pad;

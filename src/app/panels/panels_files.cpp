@@ -1,4 +1,4 @@
-// The strips over the picture that ask and tell: errors, questions, what is being loaded. None is modal.
+// The strips over the picture: errors, questions, loading progress. None is modal.
 
 #include "app/panels/panels.h"
 
@@ -13,11 +13,11 @@ namespace candela {
 
 namespace {
 
-constexpr double kQuietSeconds = 0.3; // work that takes less is not shown
+constexpr double kQuietSeconds = 0.3; // shorter work is not shown
 
 const ImVec4 kRed(0.36f, 0.12f, 0.10f, 0.97f), kGrey(0.20f, 0.20f, 0.20f, 0.97f);
 
-/// Strips below one another from the top of the picture on.
+/// Strips stacked from the top of the picture.
 class Strips {
 public:
   Strips(Ui& ui, vec2 position, float width) : ui_(ui), position_(position), width_(width) {}
@@ -32,7 +32,7 @@ public:
                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                          ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize))
       content();
-    // Whatever came or was clicked later: nothing of the picture lies over what is told about it.
+    // Kept in front of all overlays of the picture.
     if (ImGui::GetCurrentContext()->OpenPopupStack.empty())
       ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
     position_.y += ImGui::GetWindowHeight();
@@ -40,7 +40,7 @@ public:
     ImGui::PopStyleColor();
   }
 
-  /// A text that leaves room for `buttons` of button_width() at its right, where the cursor then is.
+  /// A text with room for `buttons` of button_width() at its right, where the cursor is then.
   void text(const std::string& text, int buttons) {
     const float room = static_cast<float>(buttons) * (button_width() + ImGui::GetStyle().ItemSpacing.x);
     const float left = std::max(width_ - room - ImGui::GetStyle().WindowPadding.x, 1.0f);
@@ -108,14 +108,15 @@ void save_as(Ui& ui, ViewerState& state, Strips& strips, float width) {
   const bool entered = ui.asked_path("save.path", "Path of a .json file", state.save_path,
                                      std::max(field, 40.0f), state.save_field_wanted);
   const bool escaped = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-  if (state.save_path != before) { // what was said or asked was about another name
+  if (state.save_path != before) { // messages and questions were about another name
     state.settle(ErrorCause::save);
     if (state.question == Question::replace) state.question = Question::none;
     state.replace_path.clear();
   }
   ImGui::SameLine();
-  const bool pressed = ui.button("save.to", "Save", "Meshes in its folder are named, others written into it",
-                                 strips.button_width());
+  const bool pressed =
+      ui.button("save.to", "Save", "Meshes in its folder are referred to, others are written into it",
+                strips.button_width());
   ImGui::SameLine();
   if (ui.button("save.cancel", "Cancel", {}, strips.button_width()) || escaped) state.give_up_saving();
   if ((entered || pressed) && !state.save_path.empty()) state.save_to = state.save_path;
@@ -136,13 +137,13 @@ void working_bar(double share, float unit) {
 void message_strips(Ui& ui, ViewerState& state, vec2 position, vec2 room) {
   const float width = room.x, height = std::exchange(state.strips_bottom, 0.0f);
   if (width < 1) return;
-  // What is asked stands first, so that nothing that happens meanwhile moves it from under the pointer.
+  // Questions come first, so that later messages do not move them under the pointer.
   Strips asking(ui, position, width);
   if (state.save_as_visible) asking.strip("##save", kGrey, [&] { save_as(ui, state, asking, width); });
   if (state.question != Question::none)
     asking.strip("##question", kGrey, [&] { question(ui, state, asking); });
 
-  // The rest gives way to what is being typed, which may be in a field of the lab's.
+  // The other strips must not cover the field that is being edited, which may be in the lab.
   const auto typed = ui.typed_field();
   const bool in_the_way = typed && typed->name != "save.path" && typed->lo.x < position.x + width &&
                           typed->lo.y < position.y + std::max(height, 64 * ui.scale());
@@ -158,10 +159,10 @@ void message_strips(Ui& ui, ViewerState& state, vec2 position, vec2 room) {
                               reading ? state.loading_path : scene_title(state), std::floor(100 * share)),
                   1);
       ui.record("working");
-      if (reading && strips.button("working.cancel", "Cancel", "Keeps the scene that is shown (Esc)"))
+      if (reading && strips.button("working.cancel", "Cancel", "Keeps the current scene (Esc)"))
         state.cancel_requested = true;
       if (building && state.may_stop_building &&
-          strips.button("working.cancel", "Cancel", "Back to what was before (Esc)"))
+          strips.button("working.cancel", "Cancel", "Back to the previous state (Esc)"))
         state.cancel_requested = true;
       working_bar(share, ui.scale());
     });
@@ -169,7 +170,7 @@ void message_strips(Ui& ui, ViewerState& state, vec2 position, vec2 room) {
     strips.strip("##error", kRed, [&] {
       strips.text(state.error, 1);
       ui.record("error.text");
-      if (strips.button("error.dismiss", "Dismiss", "Esc does it, too")) state.error.clear();
+      if (strips.button("error.dismiss", "Dismiss", "Esc")) state.error.clear();
     });
   state.told_height = strips.bottom() - top;
   state.strips_bottom = in_the_way ? asking.bottom() : strips.bottom();

@@ -1,4 +1,4 @@
-// The section that looks into the picture: its histogram in stops, and the switch of the probe.
+// The section about pixel values: the histogram in stops, and the switch of the probe.
 
 #include "app/panels/panel_list.h"
 #include "app/ui/typed_number.h"
@@ -11,7 +11,7 @@ namespace candela {
 
 namespace {
 
-// Stops from middle grey that the plot spans: what a display shows lies between some -7 and +2.5.
+// Stops from middle grey that the plot spans; a display shows about -7 to +2.5.
 constexpr float kLow = -10, kHigh = 8;
 
 struct Plot {
@@ -19,14 +19,14 @@ struct Plot {
   float x(float stops) const { return lo.x + (stops - kLow) / (kHigh - kLow) * (hi.x - lo.x); }
 };
 
-/// Share of the pixels, of constant width.
+/// Share of the pixels, padded to constant width.
 std::string percent(std::size_t part, std::size_t whole) {
   return fmt::format("{:6.2f} %",
                      whole > 0 ? 100 * static_cast<double>(part) / static_cast<double>(whole) : 0);
 }
 
-/// Columns of one channel, in stops from the grey that `grey` (log2) is; the heights are square roots, so
-/// that small counts are seen beside large ones.
+/// Columns of one channel, in stops from middle grey at `grey` (log2). Heights are square roots, so that
+/// small counts are visible next to large ones.
 void draw_channel(ImDrawList& list, const Plot& plot, const LogHistogram& histogram,
                   LogHistogram::Channel channel, float grey, float largest, ImU32 color) {
   const auto& counts = histogram.counts[channel];
@@ -67,8 +67,8 @@ void draw_ticks(ImDrawList& list, const Plot& plot, float unit) {
   }
 }
 
-/// The plot, and the exposure under the pointer: the light moves with it. It takes the same room when there
-/// is nothing to plot (yet), so that nothing below jumps.
+/// The plot, which changes the exposure when it is dragged. Without data it has the same size, so that
+/// nothing below moves.
 void histogram_plot(Ui& ui, ViewerState& state, const LogHistogram* histogram) {
   const float unit = ui.scale(), height = 96 * unit;
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -81,7 +81,7 @@ void histogram_plot(Ui& ui, ViewerState& state, const LogHistogram* histogram) {
   const bool exposed =
       state.picture && !state.picture->transform.false_color && state.picture->frame->view == View::radiance;
   if (!histogram || !exposed) {
-    const char* why = histogram ? "Only radiance is exposed; here nothing is" : "No picture yet";
+    const char* why = histogram ? "This view has no exposure" : "No picture yet";
     list.AddText(ImVec2(plot.lo.x + 8 * unit, plot.lo.y + 6 * unit),
                  ImGui::GetColorU32(ImGuiCol_TextDisabled), why);
     return;
@@ -98,7 +98,7 @@ void histogram_plot(Ui& ui, ViewerState& state, const LogHistogram* histogram) {
   state.edited |= exposure != before;
 
   const DisplayTransform& shown = state.picture->transform;
-  // The picture may not be toned anew yet: what the user has added since is added here.
+  // The picture may not have been tone mapped again yet: add the exposure change since then.
   const float stops = shown.tone.exposure + exposure - state.picture->display.exposure;
   const float grey = std::log2(kMiddleGrey) - stops;
   const auto largest = static_cast<float>(largest_count(*histogram));

@@ -1,4 +1,4 @@
-// What is only read: statistics and the status line; and the column that holds the panels.
+// Statistics, the status line, and the column that holds the panels.
 
 #include "app/panels/panel_list.h"
 #include "app/panels/panels.h"
@@ -13,7 +13,7 @@ namespace candela {
 
 namespace {
 
-/// Four digits and a prefix, always equally long: "1.234 M".
+/// Four digits and a prefix, of constant length: "1.234 M".
 std::string si(double value) {
   constexpr std::string_view kPrefixes[] = {"", " k", " M", " G", " T"};
   std::size_t prefix = 0;
@@ -51,7 +51,7 @@ ImVec4 phase_color(SessionPhase phase) {
   return {0.85f, 0.62f, 0.30f, 1};
 }
 
-/// "12 of 64": the target when the number of samples is one.
+/// "12 of 64", if a number of samples is the stopping criterion.
 std::string spp_text(const ViewerState& state) {
   const int target = state.document.settings.stop.spp;
   return target > 0 ? fmt::format("{} of {}", state.status.spp, target) : fmt::format("{}", state.status.spp);
@@ -82,18 +82,17 @@ void statistics_panel(Ui& ui, ViewerState& state) {
              "Closest-hit and shadow rays a second");
   ui.readout("edit to image",
              status.first_image_ms < 0 ? "…" : fmt::format("{:.1f} ms", status.first_image_ms),
-             "From the last edit that restarted to its first image");
+             "From the last edit that restarted the image to its first picture");
   const MeterReadings& meter = state.meter;
   auto ms = [](double value) { return value > 0 ? fmt::format("{:.1f} ms", value) : std::string("…"); };
   ui.readout("input latency", ms(meter.first_ms),
              "From an input to its first picture on the screen; the median of the last 32");
-  ui.readout("full-picture latency", ms(meter.full_ms), "The same to one sample in every pixel");
-  ui.readout(
-      "frame", fmt::format("{}, 99 %: {}", ms(meter.frame_ms), ms(meter.frame_p99_ms)),
-      "Of the window, until it is on the screen: the median of the last 256, and what 99 % of them keep to");
+  ui.readout("full-picture latency", ms(meter.full_ms), "The same, to one sample in every pixel");
+  ui.readout("frame", fmt::format("{}, 99 %: {}", ms(meter.frame_ms), ms(meter.frame_p99_ms)),
+             "Time of a window frame until it is on the screen: median and 99th percentile of the last 256");
   ui.readout("cores rendering",
              meter.render_share > 0 ? fmt::format("{:.0f} %", 100 * meter.render_share) : "…",
-             "CPU time of the threads that render, of all cores'; other programs take their part, too");
+             "CPU time of the render threads, of all cores; other programs use some, too");
   ui.readout("restarts", fmt::format("{}", status.restarts), "Accumulations begun since the window opened");
   ui.readout("non-finite", fmt::format("{}", status.nonfinite),
              "Samples whose radiance was NaN or infinite; they are left out and counted");
@@ -105,8 +104,9 @@ void statistics_panel(Ui& ui, ViewerState& state) {
 void panel_column(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
   ImGui::SetNextWindowPos(ImVec2(position.x, position.y));
   ImGui::SetNextWindowSize(ImVec2(size.x, size.y));
-  const ImGuiWindowFlags flags = (kPlainWindow & ~ImGuiWindowFlags_NoScrollbar) |
-                                 ImGuiWindowFlags_AlwaysVerticalScrollbar; // nothing moves when a fold opens
+  const ImGuiWindowFlags flags =
+      (kPlainWindow & ~ImGuiWindowFlags_NoScrollbar) |
+      ImGuiWindowFlags_AlwaysVerticalScrollbar; // so that nothing moves when a section opens
   if (ImGui::Begin("##panels", nullptr, flags)) {
     for (DrawPanel draw : kPanels) draw(ui, state);
     if (ui.button("lab.open", "Monte Carlo lab",
@@ -129,7 +129,7 @@ void status_line(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
     ImGui::GetWindowDrawList()->AddCircleFilled(
         ImVec2(at.x + 4 * unit, at.y + 0.5f * ImGui::GetTextLineHeight()), 3.5f * unit,
         ImGui::GetColorU32(phase_color(status.phase)));
-    // Each text has its own place, so that none moves when another grows.
+    // Each text has a fixed position, so that none moves when another grows.
     auto cell = [&, x = kFirstCell * unit](const std::string& text, float width) mutable {
       ImGui::SameLine(x);
       ImGui::TextUnformatted(text.c_str());

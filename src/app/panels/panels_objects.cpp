@@ -1,4 +1,4 @@
-// The panel of what is placed in the scene.
+// The panel of the scene's objects.
 
 #include "app/panels/panel_list.h"
 #include "app/tools/transform_parts.h"
@@ -10,26 +10,22 @@ namespace {
 
 constexpr auto kInf = std::numeric_limits<double>::infinity();
 
-const FieldInfo kPosition{"position",
-                          FieldType::point,
-                          -kInf,
-                          kInf,
-                          "scene units",
-                          "Where the object's own origin is, in the world",
-                          Invalidates::scene};
+const FieldInfo kPosition{
+    "position",        FieldType::point, -kInf, kInf, "scene units", "World position of the object's origin",
+    Invalidates::scene};
 const FieldInfo kRotation{"rotation",
                           FieldType::point,
                           -kInf,
                           kInf,
                           "degrees",
-                          "Turns about the world's x, then y, then z axis, and the object's middle",
+                          "Rotation about the world's x, then y, then z axis through the object's centre",
                           Invalidates::scene};
 const FieldInfo kScale{"scale",
                        FieldType::point,
                        -1e6,
                        1e6,
                        "",
-                       "Factors along the object's own axes, from its middle",
+                       "Factors along the object's own axes, about its centre",
                        Invalidates::scene};
 
 std::string shape_text(const Shape& shape) {
@@ -38,14 +34,13 @@ std::string shape_text(const Shape& shape) {
   return std::string(shape_name(shape));
 }
 
-/// The values that a shape of this kind has. `home`: as it was loaded; null where that was another kind.
+/// The values of a shape of this kind. `home` is the loaded shape; null if it had another kind.
 void shape_values(Ui& ui, ViewerState& state, Shape& shape, Shape* home) {
   for (const auto& row : shape_fields(shape)) {
     FieldInfo limits = shape_limits(shape, row);
     FieldContext context;
     if (home != nullptr) context.initial = row.address(*home);
-    if (row.type ==
-        FieldType::real) { // a length has no natural end that a slider could have: 100 pixels double it
+    if (row.type == FieldType::real) { // a length has no upper limit for a slider: 100 pixels double it
       limits.logarithmic = false;
       context.drag_speed = 0.01f * *static_cast<const float*>(row.address(shape));
     }
@@ -53,7 +48,7 @@ void shape_values(Ui& ui, ViewerState& state, Shape& shape, Shape* home) {
   }
 }
 
-/// The angles as they were typed: those of the matrix are only one choice of many.
+/// The angles as they were typed: several sets of angles give the same matrix.
 TransformParts shown_parts(ViewerState& state, const mat4& matrix) {
   if (state.typed_transform && transform_of(*state.typed_transform) == matrix) return *state.typed_transform;
   state.typed_transform.reset();
@@ -102,7 +97,7 @@ void material_choices(Ui& ui, ViewerState& state, Instance& instance) {
     const bool single = instance.materials.size() == 1;
     const std::string label = single ? "material" : name_or_number((*mesh)->slot_names[slot], "slot", slot);
     if (!ui.choice(fmt::format("object.material.{}", slot).c_str(), label.c_str(), instance.materials[slot],
-                   choices, "What the object is made of.\nRebuilds the geometry, then restarts the image."))
+                   choices, "The object's material.\nRebuilds the geometry, then restarts the image."))
       continue;
     state.edited = true;
     state.selected_material = instance.materials[slot];

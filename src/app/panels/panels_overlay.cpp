@@ -1,4 +1,4 @@
-// What lies over the picture: help, the hint of the first seconds. Nothing of it is modal.
+// Overlays of the picture: help, and the initial hint. None is modal.
 
 #include "app/panels/panels.h"
 
@@ -79,7 +79,7 @@ void help_overlay(Ui& ui, ViewerState& state, vec2 center, vec2 room) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * ui.scale());
   if (ImGui::Begin("##help", nullptr,
                    (kOverlay & ~ImGuiWindowFlags_NoScrollbar) | ImGuiWindowFlags_AlwaysAutoResize)) {
-    // Two lists beside each other, so that all keys are seen at once in a window of 1280x720.
+    // Two columns, so that all keys fit into a window of 1280x720.
     const float column = 165 * ui.scale();
     key_list(kViewKeys, column);
     if (room.x > 860 * ui.scale()) ImGui::SameLine(0, 20 * ui.scale());

@@ -15,7 +15,7 @@ constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindo
                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                                       ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoInputs;
 
-/// Four digits, equally long but for the sign and huge or tiny values.
+/// Four digits, of constant length except for the sign and huge or tiny values.
 std::string digits(float value) {
   const float size = std::abs(value);
   if (size != 0 && (size < 1e-3f || size >= 1e7f)) return fmt::format("{:.3e}", value);
@@ -29,7 +29,7 @@ std::string digits(float value) {
 
 std::string triple(vec3 v) { return fmt::format("{}  {}  {}", digits(v.x), digits(v.y), digits(v.z)); }
 
-/// A name from the scene, or its number where it has none.
+/// A name from the scene, or its index if it has none.
 template <class T>
 std::string name_of(const std::vector<T>& things, int index, const char* kind) {
   if (index < 0 || static_cast<std::size_t>(index) >= things.size()) return "-";
@@ -68,7 +68,7 @@ std::vector<Row> picture_rows(const DisplayImage& picture, ivec2 pixel) {
     return rows;
   }
   rows.push_back({"samples", fmt::format("{}", frame.samples[index])});
-  // Of the pixel's mean before any denoising, by channel; relative: of all channels together.
+  // Of the pixel's mean before denoising, by channel; the relative one is of all channels together.
   const vec3 variance = frame.variance[index];
   const float mean = average(frame.linear[index]);
   rows.push_back({"std error", triple(glm::sqrt(variance))});
@@ -97,7 +97,7 @@ void text_rows(const std::vector<Row>& rows, float column) {
   }
 }
 
-/// Round steps (1, 2 or 5 times a power of ten) for some `count` ticks over a length.
+/// Round steps (1, 2 or 5 times a power of ten) for about `count` ticks over a length.
 double tick_step(double length, int count) {
   const double rough = length / count;
   const double power = std::pow(10, std::floor(std::log10(rough)));
@@ -136,7 +136,7 @@ void probe_overlay(Ui& ui, ViewerState& state, const PixelRect& picture, vec2 to
   if (!inspect.probe_visible || !state.picture) return;
   const float unit = ui.scale();
   ImGui::SetNextWindowPos(ImVec2(top_left.x + 12 * unit, top_left.y + 12 * unit));
-  ImGui::SetNextWindowSize(ImVec2(348 * unit, 0)); // does not jump when a number grows
+  ImGui::SetNextWindowSize(ImVec2(348 * unit, 0)); // constant, so that it does not change with the numbers
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * unit);
   if (ImGui::Begin("##probe", nullptr, kOverlay)) {
@@ -147,7 +147,7 @@ void probe_overlay(Ui& ui, ViewerState& state, const PixelRect& picture, vec2 to
       text_rows(picture_rows(*state.picture, *inspect.probe_pixel), column);
       ImGui::Separator();
       text_rows(scene_rows(state, inspect.probe_pick), column);
-      ImGui::TextDisabled("%s", inspect.probe_frozen ? "held; H lets go" : "H holds this pixel");
+      ImGui::TextDisabled("%s", inspect.probe_frozen ? "held; H releases" : "H holds this pixel");
     }
     const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
     ui.record("probe", vec2(at.x, at.y), vec2(at.x + size.x, at.y + size.y));
@@ -222,7 +222,7 @@ void legend_overlay(Ui& ui, const ViewerState& state, vec2 bottom_left) {
       list.AddRectFilledMultiColor(ImVec2(x0 + t0 * width, y0), ImVec2(x0 + t1 * width, y0 + height),
                                    color(t0), color(t1), color(t1), color(t0));
     }
-    float free_from = -kInfinity; // labels do not touch
+    float free_from = -kInfinity; // labels must not touch
     for (double tick : legend_ticks(scale)) {
       const float x = x0 + scale.position(static_cast<float>(tick)) * width;
       list.AddLine(ImVec2(x, y0 + height), ImVec2(x, y0 + height + 3 * unit),
@@ -260,7 +260,7 @@ void focus_rows(Ui& ui, ViewerState& state) {
       0,
       0,
       "",
-      "Tints what is sharp and draws a line where surfaces meet the plane of focus (O)",
+      "Tints what is in focus and draws a line where the plane of focus intersects surfaces (O)",
       Invalidates::nothing};
   const bool initial = false;
   ui.field("focus.show_plane", kRow, &state.inspect.focus_plane_visible, {&initial, "show focus (O)", 0});

@@ -1,4 +1,4 @@
-// The panels of what is in the scene, and of which scene it is.
+// The panels of materials, lights and scenes.
 
 #include "app/panels/panel_list.h"
 #include "app/panels/texture_picker.h"
@@ -30,7 +30,7 @@ void light_fields_of(Ui& ui, ViewerState& state, std::size_t index) {
   if (ui.field("light.type", light_type_field(), &type, of_type)) {
     change_type(light, type);
     state.edited = true;
-    return; // the rows are others now
+    return; // the rows have changed
   }
   for (const auto& row : light_fields(light)) {
     FieldContext context;
@@ -41,8 +41,8 @@ void light_fields_of(Ui& ui, ViewerState& state, std::size_t index) {
 }
 
 void panorama_of(Ui& ui, ViewerState& state, const EnvironmentLightModel& light) {
-  ui.readout("panorama", light.panorama ? light.panorama->name : "none: the same from everywhere",
-             "The picture that the light comes from");
+  ui.readout("panorama", light.panorama ? light.panorama->name : "none: constant radiance",
+             "The image of the environment");
   const float button = 64 * ui.scale();
   const std::string before = state.panorama_input;
   const bool entered = ui.text("light.file", "Path of a panorama, or drop it here", state.panorama_input,
@@ -50,11 +50,11 @@ void panorama_of(Ui& ui, ViewerState& state, const EnvironmentLightModel& light)
   if (state.panorama_input != before) state.settle(ErrorCause::open);
   ImGui::SameLine();
   const bool pressed =
-      ui.button("light.open", "Open", "Lights the scene with this picture (.exr, .hdr …)", button);
+      ui.button("light.open", "Open", "Lights the scene with this panorama (.exr, .hdr …)", button);
   if ((entered || pressed) && !state.panorama_input.empty()) state.open_paths = {state.panorama_input};
 }
 
-/// The value as it was loaded, if the material still is the scene's, of the same type.
+/// The loaded value, if the material still is the scene's and of the same type.
 void* initial_of(const MaterialField& row, std::vector<Material>& home, const Material& material,
                  std::size_t index) {
   const bool known = index < home.size() && home[index].model.index() == material.model.index();
@@ -100,7 +100,7 @@ void materials_panel(Ui& ui, ViewerState& state) {
             });
   const auto index = static_cast<std::size_t>(state.selected_material);
   Material& material = materials[index];
-  ImGui::PushID(state.selected_material); // a half-typed value belongs to one material
+  ImGui::PushID(state.selected_material); // so that an unfinished entry belongs to one material
   material_type_of(ui, state, index);
   for (const MaterialField& row : material_fields(material)) {
     FieldContext context;
@@ -160,14 +160,15 @@ void scenes_panel(Ui& ui, ViewerState& state) {
       ui.text("scene.path", "Path of a scene, or drop it here", state.path_input, -button - gap);
   if (state.path_input != before) state.settle(ErrorCause::open);
   ImGui::SameLine();
-  const bool pressed = ui.button("scene.open", "Open", "Reads the scene beside the running one", button);
+  const bool pressed =
+      ui.button("scene.open", "Open", "Reads the scene while the current one keeps running", button);
   if ((entered || pressed) && !state.path_input.empty()) state.open_paths = {state.path_input};
   if (ui.button("scene.save", "Save", "Writes the scene as JSON (Ctrl+S)", button))
     state.save_scene_requested = true;
   ImGui::SameLine();
   if (ui.button("scene.save_as", "Save as", "Writes it under another name (Ctrl+Shift+S)", 1.2f * button))
     state.save_scene_requested = state.save_as_requested = true;
-  // What the scene's author says of it; a file may hold more than anybody wants to read here.
+  // The author's description, shortened: a file may hold a very long text.
   constexpr std::size_t kMostText = 2000;
   const std::string text = state.document.scene.description.substr(0, kMostText);
   if (!text.empty()) {

@@ -1,4 +1,4 @@
-// The panels made from the settings table: Render, Display and the camera's rows.
+// The panels generated from the settings table: Render, Display and the camera's rows.
 
 #include "app/panels/panel_list.h"
 #include "app/panels/panels_probe.h"
@@ -13,7 +13,7 @@ namespace {
 
 std::string_view group_of(std::string_view key) { return key.substr(0, key.find('.')); }
 
-/// What a group's settings are reset to: the table's defaults, or the scene's own camera.
+/// The values that a group is reset to: the table's defaults, or the scene's camera.
 const Document& default_document() {
   static const Document document;
   return document;
@@ -39,7 +39,7 @@ constexpr Group kGroups[] = {
     {"ao", "Ambient occlusion", false},  {"view", "View", true},
 };
 
-/// The groups that are named above come first, in that order; a new one of the table follows them.
+/// The groups above come first, in that order, then all other groups of the table.
 std::vector<Group> render_groups(std::vector<std::string>& storage) {
   std::vector<Group> groups(std::begin(kGroups), std::end(kGroups));
   storage.reserve(settings_table().size());
@@ -57,7 +57,7 @@ void film_size_choice(Ui& ui, ViewerState& state) {
   constexpr std::string_view kChoices[] = {"fit window", "fixed"};
   int chosen = state.fit_film ? 0 : 1;
   if (ui.choice("film.size", "size", chosen, kChoices,
-                "Whether the film has the window's size or one of its own.\nRestarts the image when the size "
+                "Whether the film has the window's size or a fixed one.\nRestarts the image when the size "
                 "changes."))
     state.fit_film = chosen == 0;
 }
@@ -76,7 +76,7 @@ void render_panel(Ui& ui, ViewerState& state) {
     for (const auto& row : settings_table()) {
       if (group_of(row.key) != group.prefix) continue;
       const bool fitted = state.fit_film && (row.key == "film.width" || row.key == "film.height");
-      // A fitted film's size is not an edit: it is its own default.
+      // The size of a film that fits the window is not an edit, so it is its own default.
       const Document& initial = fitted ? state.document : default_document();
       if (!setting(ui, row, state.document, initial, 0.01f)) continue;
       state.edited = true;
@@ -92,9 +92,9 @@ void display_panel(Ui& ui, ViewerState& state) {
       state.edited |= setting(ui, row, state.document, default_document(), 0.01f);
   if (state.picture && state.document.settings.display.auto_exposure)
     ui.readout("found exposure", fmt::format("{:+.2f} stops", state.picture->transform.automatic_exposure),
-               "What auto exposure adds to the exposure");
+               "Added to the exposure by auto exposure");
   if (ui.button("save", "Save PNG and EXR",
-                "Writes what is shown, as PNG and as linear EXR, under new names (P)"))
+                "Writes the picture as PNG and as linear EXR under new names (P)"))
     state.save_requested = true;
 }
 

@@ -1,4 +1,4 @@
-// The tools above the panels: what is needed at any time.
+// The tools above the panels.
 
 #include "app/panels/panels.h"
 
@@ -9,7 +9,7 @@ namespace candela {
 
 namespace {
 
-/// A row of equally wide buttons that fills the width.
+/// A row of buttons of equal width that fills the column.
 class ButtonRow {
 public:
   ButtonRow(Ui& ui, float width, int count) : ui_(ui) {
@@ -39,7 +39,7 @@ std::string step_tip(const char* verb, const std::string& name, const char* keys
   return fmt::format("{}{}: {} ({})", static_cast<char>(std::toupper(verb[0])), verb + 1, name, keys);
 }
 
-/// How the mouse works on what is selected.
+/// The tools that edit the selection with the mouse.
 void tool_buttons(Ui& ui, ViewerState& state) {
   constexpr struct {
     Tool tool;
@@ -47,7 +47,8 @@ void tool_buttons(Ui& ui, ViewerState& state) {
   } kTools[] = {
       {Tool::select, "tool.select", "Select", "A click selects, a drag looks around (V)"},
       {Tool::move, "tool.move", "Move", "Handles that move the selection (G); Ctrl snaps"},
-      {Tool::rotate, "tool.rotate", "Rotate", "Rings that turn the selection (R); Ctrl snaps to 15 degrees"},
+      {Tool::rotate, "tool.rotate", "Rotate",
+       "Rings that rotate the selection (R); Ctrl snaps to 15 degrees"},
       {Tool::scale, "tool.scale", "Scale", "Handles that scale the selection (T; S flies); Ctrl snaps"},
   };
   ButtonRow row(ui, ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize, 5);
@@ -56,7 +57,7 @@ void tool_buttons(Ui& ui, ViewerState& state) {
       state.tool = entry.tool;
   const bool limited = state.region.has_value();
   if (row.button("region", "Region",
-                 limited ? "Gives the whole picture back (Ctrl+Alt+B)"
+                 limited ? "Renders the whole picture again (Ctrl+Alt+B)"
                          : "Drag a rectangle over the picture: only that accumulates (Ctrl+B)",
                  true, limited || state.region_armed)) {
     state.region_armed = !limited && !state.region_armed;
@@ -80,7 +81,7 @@ void tool_bar(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
                    !state.redo_name.empty()))
       state.redo_requested = true;
     if (row.button("pause", state.paused ? "Resume" : "Pause",
-                   "Stops and goes on accumulating (K, Pause); an edit still shows its first pass", true,
+                   "Pauses or continues accumulating (K, Pause); edits still show their first pass", true,
                    state.paused))
       state.paused = !state.paused;
     if (row.button("step", "Step", "One more sample for every pixel, then a pause (L)"))

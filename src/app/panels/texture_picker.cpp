@@ -20,7 +20,7 @@ ImU32 shown(vec3 linear) {
   return IM_COL32(byte(linear.x), byte(linear.y), byte(linear.z), 255);
 }
 
-/// The texture over [0, 1]^2 in a few squares: enough to know it by, and no memory of the graphics driver.
+/// The texture over [0, 1]^2 as a few squares: recognisable, without a texture in the graphics driver.
 void draw_thumbnail(const Texture& texture, ImVec2 lo, ImVec2 hi) {
   constexpr int kCells = 12;
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -48,14 +48,14 @@ void set_constant(const ParameterRef& parameter) {
     parameter.color->offset = vec3(0);
 }
 
-/// A new texture of that kind, with its first values.
+/// A new texture of that kind with default values.
 int add_texture(SceneDesc& scene, std::string_view kind) {
   scene.textures.push_back(
       std::make_shared<const Texture>(Texture{std::string(kind), *texture_of_kind(kind)}));
   return static_cast<int>(scene.textures.size()) - 1;
 }
 
-/// The list; true where another texture, or none, was chosen.
+/// The list; true if another texture, or none, was chosen.
 bool choose_texture(Ui& ui, ViewerState& state, const std::string& name, const ParameterRef& parameter) {
   SceneDesc& scene = state.document.scene;
   const int before = parameter.use().texture;
@@ -99,7 +99,7 @@ void thumbnail(Ui& ui, ViewerState& state, const std::string& name, const Parame
   }
 }
 
-/// How the texture is looked at, and the values of one that is no picture.
+/// How the texture is used, and the values of a procedural one.
 void texture_fields(Ui& ui, ViewerState& state, const std::string& name, const ParameterRef& parameter) {
   TextureUse& use = parameter.use();
   TextureUse standard = parameter.standard_use();
@@ -180,11 +180,11 @@ void set_parameter_texture(SceneDesc& scene, const TextureTarget& target,
                            const std::shared_ptr<const Texture>& texture) {
   if (target.material >= scene.materials.size()) return;
   const ParameterRef parameter = find_parameter(scene.materials[target.material], target.key);
-  if (!parameter) return; // its type was changed meanwhile
+  if (!parameter) return; // the type has changed since
   const auto same =
       std::ranges::find_if(scene.textures, [&](const auto& known) { return *known == *texture; });
   if (parameter.use().texture < 0) {
-    // A texture shows as it is; what was a constant may well be black.
+    // Not scaled by the former constant, which may be black.
     if (parameter.number != nullptr)
       parameter.number->value = 1;
     else

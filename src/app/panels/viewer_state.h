@@ -1,5 +1,5 @@
 #pragma once
-// What the panels look at and change. They only ask (open this, save that); the Viewer does.
+// The state that the panels show and edit. They only make requests (open, save); the Viewer acts on them.
 
 #include "app/compare/compare_state.h"
 #include "app/tools/gizmo.h"
@@ -19,33 +19,33 @@
 
 namespace candela {
 
-/// A part of the picture: its corners in [0, 1]^2 from the top left, so that it outlives the film's size.
+/// A part of the picture: its corners in [0, 1]^2 from the top left, independent of the film's size.
 struct PictureRegion {
   vec2 lo{0}, hi{1};
   bool operator==(const PictureRegion&) const = default;
 };
 
-/// What a strip over the picture asks; nothing waits for the answer.
+/// The question of a strip over the picture; it is not modal.
 enum class Question { none, quit, reload, replace };
 
-/// What an error is about: it goes when that succeeds, is tried again or is given up.
+/// The subject of an error, which is cleared when the action succeeds, is retried or is cancelled.
 enum class ErrorCause { none, open, save, picture, camera, render, preferences };
 
-/// A parameter of a material that is to have a texture.
+/// The parameter that gets a dropped or opened texture.
 struct TextureTarget {
   std::size_t material = 0; ///< index into SceneDesc::materials
   std::string key;
 };
 
 struct ViewerState {
-  Document document;   ///< what the user sees and edits
-  Document home;       ///< as it was loaded: what the camera, materials and lights are reset to
+  Document document;   ///< the edited document
+  Document home;       ///< as loaded: camera, materials and lights are reset to it
   bool edited = false; ///< `document` is to be submitted
 
   std::string scene_path;  ///< empty: the built-in scene
   Bounds3 bounds;          ///< of the scene, world space
   float natural_speed = 1; ///< scene units a second
-  float speed_factor = 1;  ///< the user's, times natural_speed
+  float speed_factor = 1;  ///< set by the user; multiplies natural_speed
 
   bool fit_film = true; ///< the film has the window's size
   bool panels_visible = true;
@@ -55,28 +55,28 @@ struct ViewerState {
 
   SessionStatus status;
   std::shared_ptr<const DisplayImage> picture; ///< the one on the screen; null before the first
-  std::string picture_of;                      ///< what it shows if not the document; empty: the document
+  std::string picture_of;                      ///< what it shows, if not the current document
   MeterReadings meter;                         ///< recent input latency
   float frame_ms = 0;                          ///< CPU time that the last frame of the window took
   int loading = 0;                             ///< scenes being read
   std::string loading_path;
-  bool reading = false; ///< a scene that will be shown
+  bool reading = false; ///< a scene is being read
   double now = 0;       ///< the window's clock, seconds
   double loading_since = 0, building_since = 0;
   double loaded = 0;              ///< 0..1: how far reading is
-  bool may_stop_building = false; ///< the history has what is shown
+  bool may_stop_building = false; ///< the history has the displayed state
 
-  std::string error; ///< shown in a strip until its cause is gone or it is dismissed; empty: none
+  std::string error; ///< shown in a strip until resolved or dismissed; empty: none
   ErrorCause error_cause = ErrorCause::none;
   void fail(ErrorCause cause, std::string text) { error_cause = cause, error = std::move(text); }
-  /// What failed of this cause does so no longer.
+  /// Clears the error if it has this cause.
   void settle(ErrorCause cause) {
     if (error_cause == cause) error.clear();
   }
-  float strips_bottom = 0;           ///< where the strips at the top of the picture ended in the last frame
-  float told_height = 0;             ///< of those among them that only tell
+  float strips_bottom = 0;           ///< bottom of the strips in the last frame
+  float told_height = 0;             ///< height of those without a question
   std::vector<std::string> warnings; ///< of the scene
-  std::string notice;                ///< in the status line for a while
+  std::string notice;                ///< shown in the status line for a short time
 
   std::vector<std::filesystem::path> scenes; ///< offered in the Scenes panel
   std::string path_input;
@@ -90,15 +90,15 @@ struct ViewerState {
   std::optional<TransformParts> typed_transform; ///< of the selected object, as its fields show it
   vec3 selection_middle{0};                      ///< of the selected object, in its own space
   bool overlays_visible = true;                  ///< the selection's box and the lights, over the picture
-  std::optional<PictureRegion> region;           ///< only this accumulates
-  bool region_armed = false;                     ///< the next drag over the picture sets it
+  std::optional<PictureRegion> region;           ///< only this part accumulates
+  bool region_armed = false;                     ///< the next drag over the picture sets the region
 
-  bool modified = false; ///< there are edits that the scene's file has not
+  bool modified = false; ///< there are unsaved edits
   Question question = Question::none;
   std::string replace_path; ///< the file that Question::replace is about
   bool save_as_visible = false;
-  std::string save_path;          ///< what is typed there
-  bool save_field_wanted = false; ///< its field is to take the keyboard
+  std::string save_path;          ///< the typed path
+  bool save_field_wanted = false; ///< its field is to get the keyboard focus
   bool quit_after_save = false;
   void give_up_saving() {
     save_as_visible = quit_after_save = false;
@@ -108,33 +108,32 @@ struct ViewerState {
   }
   std::vector<std::string> recent; ///< recently opened or saved scenes
 
-  bool paused = false;   ///< the user's wish; `status` tells what is
-  std::string undo_name; ///< of the edit that would be undone; empty: none
+  bool paused = false;   ///< requested by the user; `status` has the actual state
+  std::string undo_name; ///< name of the edit that undo would revert; empty: none
   std::string redo_name;
   InspectState inspect;
 
   CompareState compare;
 
   // Requests to the Viewer.
-  std::vector<std::string>
-      open_paths; ///< a scene, or a picture that is to light this one; or what was dropped
+  std::vector<std::string> open_paths; ///< a scene, a panorama, or dropped files
   bool save_requested = false;
   bool reset_view_requested = false;
   bool refresh_scenes_requested = false;
   bool save_scene_requested = false;
-  bool save_as_requested = false; ///< and under another name
+  bool save_as_requested = false; ///< save under another name
   bool close_requested = false;
   bool save_and_quit_requested = false;
   bool reload_requested = false;
-  bool cancel_requested = false; ///< of the scene that is being read, or built
+  bool cancel_requested = false; ///< cancel reading or building
   std::optional<std::string> save_to;
   bool undo_requested = false;
   bool redo_requested = false;
   bool step_requested = false;
   std::optional<AxisView> axis_view_requested;
-  bool projection_requested = false; ///< perspective or orthographic, whichever it is not
+  bool projection_requested = false; ///< toggle between perspective and orthographic
   std::optional<Selection> select_requested;
-  bool frame_requested = false; ///< the selection, or the scene, into the picture
+  bool frame_requested = false; ///< frame the selection, or the scene
 };
 
 /// "denoised (16 spp, NFOR)".

@@ -1,7 +1,7 @@
 #pragma once
-// Finds the files that come with the program (shaders, scenes) from any working folder: beside an installed
-// program (PREFIX/bin and PREFIX/share/candela, wherever the prefix was moved to), in the source tree that
-// it was built from, or where the build was told to install.
+// Finds the program's files (shaders, scenes) from any working folder: relative to an installed program
+// (PREFIX/bin and PREFIX/share/candela, even if the prefix was moved), in the source tree that it was built
+// from, or at the configured install prefix.
 
 #include <filesystem>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace candela {
 
-/// Absolute path of "shaders/picture.frag", "scenes" and the like; an Error with ExitCode::display that names
-/// the places looked at if it is nowhere.
+/// Absolute path of a file or folder such as "shaders/picture.frag" or "scenes"; if it is not found, an Error
+/// with ExitCode::display that lists the searched places.
 std::filesystem::path find_data_file(std::string_view relative);
 
 /// The same, empty instead of an error.

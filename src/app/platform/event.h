@@ -1,6 +1,6 @@
 #pragma once
-// Events for the viewer, independent of the window system: GLFW's callbacks and the tests make the same
-// values. Positions are framebuffer pixels from the top left.
+// Events for the viewer, independent of the window system: GLFW's callbacks and the tests create them.
+// Positions are framebuffer pixels from the top left.
 
 #include "core/math.h"
 
@@ -13,7 +13,7 @@ namespace candela {
 
 struct Document;
 
-/// Keys by what is printed on a US keyboard; only those that the window or a text field knows.
+/// Keys by their labels on a US keyboard; only those that the window or a text field uses.
 enum class Key : int {
   none,
   // clang-format off
@@ -71,7 +71,7 @@ struct KeyChanged {
 struct TextTyped {
   char32_t character = 0;
 };
-/// Size of the framebuffer, and the scale of the monitor that it is on (1: 96 dots an inch).
+/// Size of the framebuffer, and the scale of its monitor (1: 96 dots per inch).
 struct Resized {
   ivec2 framebuffer{0};
   float content_scale = 1;
@@ -81,10 +81,10 @@ struct FilesDropped {
 };
 /// The window's close button, or the window manager.
 struct CloseRequested {};
-/// All keys and buttons count as released: flight ends when another window gets the keyboard.
+/// All keys and buttons count as released, so that flight ends when the window loses the keyboard focus.
 struct FocusLost {};
 
-/// An edit that no widget makes, as a widget's is taken in: for scripts that measure.
+/// An edit that no widget makes but that is processed like a widget's; for benchmarks.
 struct DocumentEdited {
   std::function<void(Document&)> apply;
 };

@@ -1,12 +1,12 @@
 #pragma once
-// The few OpenGL 3.3 core functions that the window uses, asked of the context that draws. Nothing links
-// libGL, so that the same code draws with whatever made the context: GLFW's driver or OSMesa in the tests.
+// The OpenGL 3.3 core functions that the window uses, loaded from the current context. Nothing links libGL,
+// so that the same code draws with GLFW's driver or with OSMesa in the tests.
 
 #include <GL/glcorearb.h>
 
 namespace candela {
 
-/// Looks up a GL function of the current context by name; null if there is none.
+/// Looks up a GL function of the current context by name; null if it is missing.
 using GlGetter = void* (*)(const char* name);
 
 struct Gl {

@@ -57,7 +57,7 @@ void ImguiDraw::upload_fonts(ImFontAtlas& atlas) {
   gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
   atlas.SetTexID(texture_id(atlas_));
-  atlas.ClearTexData(); // the pixels are the context's now
+  atlas.ClearTexData(); // the context has the pixels now
 }
 
 void ImguiDraw::draw(const ImDrawData& data) const {

@@ -27,7 +27,7 @@ OffscreenContext::OffscreenContext() {
   library_ = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
   if (library_ == nullptr) throw no_context("libOSMesa.so.8 is missing");
   void* (*create)(const int*, void*) = nullptr;
-  static void* (*get_proc)(const char*) = nullptr; // load_gl() takes a plain function
+  static void* (*get_proc)(const char*) = nullptr; // load_gl() takes a plain function pointer
   find(library_, create, "OSMesaCreateContextAttribs");
   find(library_, make_current_, "OSMesaMakeCurrent");
   find(library_, destroy_, "OSMesaDestroyContext");
@@ -40,7 +40,9 @@ OffscreenContext::OffscreenContext() {
   gl_ = load_gl([](const char* name) { return get_proc(name); });
 }
 
-OffscreenContext::~OffscreenContext() { destroy_(context_); } // the library stays: its threads outlive it
+OffscreenContext::~OffscreenContext() {
+  destroy_(context_);
+} // the library stays loaded: its threads outlive the context
 
 void OffscreenContext::resize(ivec2 size) {
   size_ = size;

@@ -1,6 +1,6 @@
 #pragma once
-// OpenGL without a display: OSMesa draws into memory. libOSMesa is opened at run time, because linked beside
-// libGL it would silently take over its functions.
+// OpenGL without a display: OSMesa draws into memory. libOSMesa is opened at run time, because linking it
+// together with libGL would replace libGL's functions.
 
 #include "app/platform/gl.h"
 #include "core/math.h"
@@ -13,7 +13,8 @@ namespace candela {
 /// An OpenGL 3.3 core context that draws into memory, current on the thread that made it.
 class OffscreenContext {
 public:
-  /// Of one pixel. An Error with ExitCode::display if libOSMesa is missing or has no such context.
+  /// Creates a framebuffer of one pixel. An Error with ExitCode::display if libOSMesa or such a context is
+  /// missing.
   OffscreenContext();
   ~OffscreenContext();
   OffscreenContext(const OffscreenContext&) = delete;

@@ -11,7 +11,7 @@ ProcessDeadline::ProcessDeadline(double seconds)
         std::unique_lock lock(mutex_);
         if (kept_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return is_kept_; })) return;
         std::fflush(nullptr);
-        std::_Exit(0); // no destructors: they would wait for the threads that hang
+        std::_Exit(0); // no destructors: they would wait for threads that do not end
       }) {}
 
 ProcessDeadline::~ProcessDeadline() {

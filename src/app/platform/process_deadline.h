@@ -1,5 +1,5 @@
 #pragma once
-// The end of the program where a part of it cannot be stopped.
+// Ends the program even if a part of it cannot be stopped.
 
 #include <condition_variable>
 #include <mutex>
@@ -7,9 +7,9 @@
 
 namespace candela {
 
-/// Ends the process with the exit code 0 unless it is destroyed within so many seconds: for the time when
-/// everything is saved, and what is still under way (a library that decodes a picture, a disk that
-/// does not answer) cannot be interrupted and is not needed any more.
+/// Ends the process with exit code 0 unless it is destroyed within so many seconds. Used when everything is
+/// saved and the remaining work (a library that decodes a picture, a disk that does not answer) cannot be
+/// interrupted and is no longer needed.
 class ProcessDeadline {
 public:
   explicit ProcessDeadline(double seconds);

@@ -18,7 +18,7 @@ namespace candela {
 
 namespace {
 
-/// The first byte of the child's answer is its exit code; the rest is the result, or what went wrong.
+/// The first byte of the child's answer is its exit code; the rest is the result or the error message.
 std::string answer(const std::function<std::string()>& work) {
   auto of = [](ExitCode code, const std::string& text) {
     return fmt::format("{}{}", static_cast<char>(code), text);
@@ -33,7 +33,7 @@ std::string answer(const std::function<std::string()>& work) {
 void write_all(int descriptor, const std::string& text) {
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t n = ::write(descriptor, text.data() + done, text.size() - done);
-    if (n < 0 && errno != EINTR) return; // nobody reads
+    if (n < 0 && errno != EINTR) return; // the reader is gone
     if (n > 0) done += static_cast<std::size_t>(n);
   }
 }
@@ -52,7 +52,7 @@ std::string read_all(int descriptor) {
 } // namespace
 
 std::string run_separately(const std::function<std::string()>& work) {
-  std::fflush(nullptr); // or the child would write it, too
+  std::fflush(nullptr); // otherwise the child would write buffered output again
   int ends[2];
   if (::pipe(ends) != 0) throw Error(ExitCode::limit, fmt::format("process: {}", std::strerror(errno)));
   const pid_t child = ::fork();
@@ -65,7 +65,7 @@ std::string run_separately(const std::function<std::string()>& work) {
     ::_exit(0);
   }
   ::close(ends[1]);
-  // Ctrl+C goes to both: the child ends of it, and this process must live to clear up.
+  // Ctrl+C reaches both: it ends the child, and this process must survive to clean up.
   auto* const before = std::signal(SIGINT, SIG_IGN);
   const std::string text = read_all(ends[0]);
   ::close(ends[0]);

@@ -16,7 +16,7 @@ namespace {
 
 bool pipe_was_ignored = false;
 
-/// 0, or the errno of what went wrong.
+/// 0, or the errno of the failure.
 int write_whole(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t done = ::write(descriptor, text.data(), text.size());
@@ -43,10 +43,10 @@ Error stdout_error(int error) {
 
 void prepare_streams() {
   for (int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (::fcntl(descriptor, F_GETFD) < 0) // the lowest that is free, which this is
+    if (::fcntl(descriptor, F_GETFD) < 0) // gets the lowest free descriptor, which is this one
       if (::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
   pipe_was_ignored = std::signal(SIGPIPE, SIG_IGN) == SIG_IGN;
-  std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error like a full disk
+  std::signal(SIGXFSZ, SIG_IGN); // exceeding a file size limit is an error like a full disk
 }
 
 void check_stdout() {
@@ -65,7 +65,7 @@ void print_result(std::string_view text) {
 }
 
 void say_text(std::string_view text) {
-  // There is nowhere left to tell of an error.
+  // Errors of stderr cannot be reported.
   if (write_whole(STDERR_FILENO, text) != 0) errno = 0;
 }
 

@@ -7,16 +7,16 @@
 
 namespace candela {
 
-/// Before anything else in main(). A standard stream that is closed gets a stand-in that cannot be read from
-/// or written to, or the next file that is opened would become it; SIGPIPE and SIGXFSZ no longer end the
-/// program, for a picture that is being rendered is more important than the reader of its progress.
+/// Called first in main(). A closed standard stream gets a descriptor that cannot be read or written;
+/// otherwise the next opened file would become that stream. SIGPIPE and SIGXFSZ no longer end the program, so
+/// that a render survives the reader of its progress.
 void prepare_streams();
 
-/// An output_error where stdout cannot be written to, as far as that can be known beforehand.
+/// An output_error if stdout cannot be written to, as far as that can be known in advance.
 void check_stdout();
 
-/// Writes results to stdout; output_error where they do not get there. Where the reader of a pipe is gone, it
-/// ends the program by SIGPIPE, as other programs are, unless the parent process ignores that signal.
+/// Writes results to stdout; output_error on failure. If the reader of a pipe is gone, the program ends by
+/// SIGPIPE like other programs, unless the parent process ignores that signal.
 void print_result(std::string_view text);
 
 /// Writes to stderr; a closed or broken stream is ignored.

@@ -52,7 +52,7 @@ void TaskThread::run() {
     working_ = true;
     lock.unlock();
     Completion completion = task();
-    task = nullptr; // what it captured is freed here, not on the UI thread
+    task = nullptr; // its captures are freed here, not on the UI thread
     lock.lock();
     completions_.push_back(std::move(completion));
     working_ = false;

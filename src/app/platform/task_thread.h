@@ -1,6 +1,6 @@
 #pragma once
-// Work that may take long (reading a scene, writing pictures) done beside the UI thread, which never waits
-// for it: it posts tasks and, once a frame, runs what the finished ones hand back.
+// Long work (reading a scene, writing pictures) on a thread of its own. The UI thread posts tasks and, once a
+// frame, runs the completions of finished ones; it never waits.
 
 #include <condition_variable>
 #include <deque>
@@ -15,21 +15,21 @@ class TaskThread {
 public:
   /// Run on the UI thread by run_completions().
   using Completion = std::function<void()>;
-  /// Run on the task thread; must turn its errors into a completion that shows them.
+  /// Run on the task thread; must convert its errors to a completion that shows them.
   using Task = std::function<Completion()>;
 
-  /// `wake` is called from the task thread when a completion waits.
+  /// `wake` is called from the task thread when a completion is ready.
   explicit TaskThread(std::function<void()> wake);
-  ~TaskThread(); ///< finishes the tasks that were posted (a picture must get to the disk), and joins
+  ~TaskThread(); ///< finishes the posted tasks (pictures must be written), and joins
   TaskThread(const TaskThread&) = delete;
   TaskThread& operator=(const TaskThread&) = delete;
 
   void post(Task task);
-  /// Tasks that were posted and whose completion did not run yet.
+  /// The number of posted tasks whose completion has not run yet.
   int pending() const { return pending_; }
   bool has_completions() const;
   void run_completions();
-  /// Waits until every task that was posted is done. Not for the UI thread while there is a UI.
+  /// Waits until all posted tasks are done. Not for the UI thread while there is a UI.
   void finish();
 
 private:
@@ -42,7 +42,7 @@ private:
   std::vector<Completion> completions_;
   bool stopping_ = false;
   bool working_ = false;
-  int pending_ = 0; // of the UI thread
+  int pending_ = 0; // used by the UI thread only
   std::thread thread_;
 };
 

@@ -9,10 +9,10 @@ namespace candela {
 
 namespace {
 
-// A step of a small scene is some kilobytes; one of ten thousand instances is megabytes.
+// Limits of the history: a step of a small scene takes kilobytes, one of ten thousand instances megabytes.
 constexpr std::size_t kMaxSteps = 500;
 constexpr std::size_t kMaxBytes = std::size_t{128} << 20;
-/// Scenes whose meshes the history keeps alive: the open one and the one before it.
+/// Scenes whose meshes the history keeps alive: the open one and the previous one.
 constexpr std::size_t kMaxScenes = 2;
 
 std::size_t own_bytes(const Document& document) {
@@ -27,7 +27,7 @@ void forget_film_size(Document& document) {
   document.settings.film.height = standard.height;
 }
 
-/// Without what is not an edit.
+/// The document without the values whose change is not an edit.
 Document comparable(Document document, bool fit_film) {
   if (fit_film) forget_film_size(document);
   return document;
@@ -53,7 +53,7 @@ std::vector<std::string_view> changed_keys(std::span<const Field<Owner>> rows, c
   return keys;
 }
 
-/// What of a list changed: how many entries it has, one of them (and which of its values), or several.
+/// The change of a list: entries added or removed, one entry (and its values), or several.
 template <class T, class Rows>
 std::string list_edit(const std::vector<T>& a, const std::vector<T>& b, const char* kind, const char* kinds,
                       Rows rows) {
@@ -175,7 +175,7 @@ std::optional<int> EditHistory::undos_to(const std::vector<Instance>& instances)
 void EditHistory::trim() {
   std::size_t bytes = 0, kept = 0;
   std::set<const OpenScene*> scenes;
-  while (kept < entries_.size()) { // from the newest back
+  while (kept < entries_.size()) { // from the newest to the oldest
     const Entry& entry = entries_[entries_.size() - 1 - kept];
     bytes += entry.bytes;
     scenes.insert(entry.state.scene.get());

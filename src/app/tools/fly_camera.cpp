@@ -4,7 +4,7 @@ namespace candela {
 
 namespace {
 
-/// The pitch stays this far from the up vector: closer, yaw would spin the picture on the spot.
+/// Least angle between view direction and up vector: closer, yaw would only roll the picture.
 constexpr float kPolarMargin = radians(1.0f);
 
 vec3 forward_of(const Camera& camera) { return glm::normalize(camera.target - camera.position); }
@@ -38,7 +38,7 @@ Camera turned_camera(const Camera& camera, float yaw, float pitch) {
   const float target_distance = glm::length(camera.target - camera.position);
   vec3 forward = rotated(forward_of(camera), up, yaw);
   const float polar = std::acos(std::clamp(glm::dot(forward, up), -1.0f, 1.0f));
-  // A camera that a scene placed closer to the pole than the margin may only turn away from it.
+  // A scene's camera may be closer to the pole than this margin; then it may only turn away from it.
   const float nearest = std::min(polar, kPolarMargin), farthest = std::max(polar, kPi - kPolarMargin);
   const float wanted = std::clamp(polar - pitch, nearest, farthest);
   const vec3 right = glm::normalize(glm::cross(forward, up));

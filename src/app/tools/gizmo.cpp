@@ -8,11 +8,11 @@ namespace candela {
 
 namespace {
 
-// At scale 1, like all lengths here.
+// Lengths here are in pixels at scale 1.
 constexpr float kLength = 84;    // of an axis, and radius of the rings
-constexpr float kViewRing = 102; // of the ring about the view direction
+constexpr float kViewRing = 102; // radius of the ring about the view direction
 constexpr float kMiddle = 9;     // half the side of the middle handle
-constexpr float kReach = 7;      // how far from a handle the mouse still has it
+constexpr float kReach = 7;      // distance from a handle at which the mouse still hits it
 constexpr float kThickness = 2.2f;
 constexpr int kRingSegments = 48;
 constexpr float kAngleStep = radians(15.0f), kScaleStep = 0.1f, kSmallestScale = 1e-3f;
@@ -39,7 +39,7 @@ float distance_to_segment(vec2 p, vec2 a, vec2 b) {
   return glm::length(p - (a + t * ab));
 }
 
-/// The direction that a handle stands for; of the middle one that towards the viewer.
+/// The direction of a handle; that of the middle one points to the viewer.
 vec3 axis_of(const Gizmo& gizmo, GizmoHandle handle, const ScreenProjection& screen) {
   return handle == GizmoHandle::view ? -screen.forward() : gizmo.axes[static_cast<int>(handle)];
 }
@@ -66,7 +66,7 @@ std::vector<vec2> outline(const Gizmo& gizmo, GizmoHandle handle, const ScreenPr
         line.push_back(*middle + kMiddle * gizmo.scale * corner);
   } else {
     const vec3 axis = axis_of(gizmo, handle, screen);
-    add(gizmo.pivot + 1.6f * kMiddle * unit * axis); // the middle has a handle of its own
+    add(gizmo.pivot + 1.6f * kMiddle * unit * axis); // leaves room for the middle handle
     add(gizmo.pivot + kLength * unit * axis);
   }
   return line;
@@ -100,7 +100,7 @@ void Gizmo::draw(const ScreenProjection& screen, ImDrawList& list,
     const std::vector<vec2> line = outline(*this, handle, screen);
     if (line.size() < 2) continue;
     const ImU32 color = color_of(handle, highlighted == handle);
-    const ImU32 shadow = IM_COL32(0, 0, 0, 110); // readable on any picture
+    const ImU32 shadow = IM_COL32(0, 0, 0, 110); // visible on any picture
     for (const auto& [tint, width] : {std::pair(shadow, kThickness + 2), std::pair(color, kThickness)})
       for (std::size_t i = 0; i + 1 < line.size(); ++i)
         list.AddLine(im(line[i]), im(line[i + 1]), tint, width * scale);
@@ -144,7 +144,7 @@ mat4 GizmoDrag::move(const ScreenProjection& screen, vec2 mouse, bool snap) cons
       for (int i = 0; i < 3; ++i) delta[i] = snapped(delta[i], step);
     return glm::translate(mat4(1), delta);
   }
-  // Where the axis comes nearest to the ray under the mouse; the lines' common perpendicular.
+  // The point of the axis nearest to the ray under the mouse, by the lines' common perpendicular.
   auto along_axis = [&](vec2 at) -> std::optional<float> {
     const Ray ray = screen.ray(at);
     const float cosine = glm::dot(axis, ray.direction), sine2 = 1 - cosine * cosine;
@@ -180,7 +180,8 @@ mat4 GizmoDrag::scale(const ScreenProjection& screen, vec2 mouse, bool snap) con
     return std::max(snap ? snapped(ratio, kScaleStep) : ratio, snap ? kScaleStep : kSmallestScale);
   };
   if (handle_ == GizmoHandle::view) {
-    // From the middle, right and upwards grow: the handle is too small to divide by the distance to it.
+    // The middle handle scales by movement to the right and upwards: it is too small for a ratio of
+    // distances.
     const vec2 moved = mouse - start_;
     factors = vec3(factor(kLength * gizmo_.scale + moved.x - moved.y, kLength * gizmo_.scale));
   } else {

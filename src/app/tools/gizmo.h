@@ -1,6 +1,6 @@
 #pragma once
-// Handles over the picture that move, rotate and scale what is selected: where they are, which one the mouse
-// is on, and what a drag of it does. Of a constant size on the screen.
+// Handles over the picture that move, rotate and scale the selection: their positions, hit tests and the
+// effect of drags. Their size on the screen is constant.
 
 #include "app/tools/projection.h"
 
@@ -12,26 +12,27 @@ namespace candela {
 
 enum class Tool { select, move, rotate, scale };
 
-/// An axis, or the middle: moves within the image plane, rotates about the view direction, scales evenly.
+/// An axis, or the middle, which moves within the image plane, rotates about the view direction and scales
+/// uniformly.
 enum class GizmoHandle { x, y, z, view };
 
 struct Gizmo {
   Tool tool = Tool::select; ///< not select
-  vec3 pivot{0};            ///< world space: what it stands at, turns about, scales from
+  vec3 pivot{0};            ///< world space; the centre of rotation and scaling
   mat3 axes{1};             ///< orthonormal, world space
   float scale = 1;          ///< of the user interface
 
-  /// The handle under a screen position, the nearest to it where several are.
+  /// The handle nearest to a screen position, if one is close enough.
   std::optional<GizmoHandle> hit(const ScreenProjection& screen, vec2 mouse) const;
   void draw(const ScreenProjection& screen, ImDrawList& list, std::optional<GizmoHandle> highlighted) const;
 };
 
-/// One drag of a handle, from the press on.
+/// One drag of a handle, beginning with the press.
 class GizmoDrag {
 public:
   GizmoDrag(const Gizmo& gizmo, GizmoHandle handle, vec2 mouse);
 
-  /// The world-space transform since the press, with the mouse there now. With `snap` in steps: round
+  /// The world-space transform since the press for the current mouse position. With `snap`, in steps: round
   /// numbers of scene units, 15 degrees, tenths.
   mat4 moved_to(const ScreenProjection& screen, vec2 mouse, bool snap);
   GizmoHandle handle() const { return handle_; }
@@ -44,10 +45,10 @@ private:
   Gizmo gizmo_;
   GizmoHandle handle_;
   vec2 start_, last_;
-  float angle_ = 0; ///< radians since the press; a drag may go around more than once
+  float angle_ = 0; ///< radians since the press; may exceed a full turn
 };
 
-/// The snap step of moves: 1, 2 or 5 times a power of ten, some 30 pixels long.
+/// The snap step of moves: 1, 2 or 5 times a power of ten, about 30 pixels long.
 float snap_step(float units_per_pixel, float ui_scale);
 
 } // namespace candela

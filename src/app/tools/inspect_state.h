@@ -1,5 +1,5 @@
 #pragma once
-// What the probe, the histogram and the focus overlay look at; the Inspector fills it in.
+// The state of the probe, the histogram and the focus overlay; written by the Inspector.
 
 #include "imaging/histogram.h"
 #include "session/render_session.h"
@@ -12,10 +12,10 @@ namespace candela {
 struct InspectState {
   bool probe_visible = false;
   bool probe_frozen = false;        ///< the probe stays at its pixel
-  std::optional<ivec2> probe_pixel; ///< of the film; none while the mouse is elsewhere
-  std::optional<Pick> probe_pick;   ///< what lies under it
+  std::optional<ivec2> probe_pixel; ///< of the film; none while the mouse is not over it
+  std::optional<Pick> probe_pick;   ///< the surface under it
 
-  bool histogram_open = false; ///< drawn in the last frame; only then it is counted
+  bool histogram_open = false; ///< drawn in the last frame; it is computed only then
   std::shared_ptr<const LogHistogram> histogram;
   std::shared_ptr<const DisplayImage> histogram_of;
 
@@ -23,7 +23,7 @@ struct InspectState {
   struct FocusMark {
     vec3 position{0};     ///< world space
     float view_depth = 0; ///< scene units
-    double until = 0;     ///< time at which it goes
+    double until = 0;     ///< time until which the mark is shown
   };
   std::optional<FocusMark> focus_mark;
 

@@ -6,13 +6,13 @@ namespace candela {
 
 namespace {
 
-/// A view from the top leaves the pole by this angle, so that the up vector keeps its meaning. It moves the
-/// edge of a picture by less than a pixel.
+/// A view from the top deviates from the pole by this angle, so that the up vector stays valid. The edge of a
+/// picture moves by less than a pixel.
 constexpr float kAxisTilt = 1e-3f;
 constexpr float kFrameMargin = 1.05f;
 
 struct ViewAxes {
-  vec3 right, up, forward; ///< of the picture; unit
+  vec3 right, up, forward; ///< unit vectors of the image plane and the view direction
 };
 
 ViewAxes view_axes(const Camera& camera) {
@@ -21,13 +21,13 @@ ViewAxes view_axes(const Camera& camera) {
   return {right, glm::cross(right, forward), forward};
 }
 
-/// Of the point along the view direction; never 0 or less, where perspective has no scale.
+/// Depth of the point along the view direction, clamped above 0, where perspective has no scale.
 float view_depth(const Camera& camera, vec3 point) {
   const float depth = glm::dot(point - camera.position, view_axes(camera).forward);
   return depth > 0 ? depth : glm::length(camera.target - camera.position);
 }
 
-/// The axis of the world that is nearest to the direction.
+/// The world axis nearest to the direction.
 vec3 nearest_axis(vec3 direction) {
   const vec3 size = glm::abs(direction);
   const int axis = size.y >= size.x && size.y >= size.z ? 1 : size.z >= size.x ? 2 : 0;
@@ -39,7 +39,7 @@ vec3 nearest_axis(vec3 direction) {
 } // namespace
 
 Camera orbited_camera(const Camera& camera, vec3 pivot, float yaw, float pitch) {
-  // The turned camera's axes tell where the pivot must be seen from: at the same place of the picture.
+  // Place the turned camera so that the pivot keeps its position in the picture.
   const ViewAxes before = view_axes(camera);
   Camera result = turned_camera(camera, yaw, pitch);
   const ViewAxes after = view_axes(result);
@@ -65,7 +65,7 @@ Camera panned_camera(const Camera& camera, vec2 distance) {
 Camera zoomed_camera(const Camera& camera, vec3 pivot, float factor, float nearest) {
   Camera result = camera;
   if (camera.projection == Projection::orthographic) {
-    // Only what lies across the view scales: nothing comes before the camera that was behind it.
+    // Scale only across the view direction, so that no point moves from behind the camera to its front.
     const ViewAxes axes = view_axes(camera);
     const vec3 to_pivot = pivot - camera.position;
     const vec3 step = (1 - factor) * (to_pivot - glm::dot(to_pivot, axes.forward) * axes.forward);
@@ -84,7 +84,7 @@ Camera axis_camera(const Camera& camera, vec3 pivot, AxisView view) {
   const vec3 up = nearest_axis(camera.up);
   const vec3 right = up.x != 0 ? vec3(0, 1, 0) : vec3(1, 0, 0);
   const vec3 front = glm::cross(right, up);
-  vec3 from(0); // of the pivot to the camera
+  vec3 from(0); // from the pivot to the camera
   switch (view) {
   case AxisView::front: from = front; break;
   case AxisView::back: from = -front; break;
@@ -109,7 +109,7 @@ Camera other_projection(const Camera& camera, vec3 pivot) {
     result.orthographic_height = slope * view_depth(camera, pivot);
     return result;
   }
-  // Zooming changed the height alone: step to where the perspective shows as much.
+  // Zooming changed only the orthographic height: move to the distance at which perspective shows as much.
   result.projection = Projection::perspective;
   const ViewAxes axes = view_axes(camera);
   const float depth = camera.orthographic_height / slope;
@@ -122,7 +122,7 @@ Camera other_projection(const Camera& camera, vec3 pivot) {
 Camera framing_camera(const Camera& camera, const Bounds3& bounds, float aspect) {
   if (bounds.empty()) return camera;
   const float radius = std::max(0.5f * glm::length(bounds.diagonal()), 1e-6f);
-  const float narrow = std::min(aspect, 1.0f); // of the picture's smaller side to its height
+  const float narrow = std::min(aspect, 1.0f); // smaller side of the picture over its height
   const float half_angle = std::atan(narrow * std::tan(0.5f * camera.vertical_fov));
   Camera result = camera;
   result.target = bounds.center();

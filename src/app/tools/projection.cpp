@@ -19,7 +19,7 @@ std::optional<vec2> ScreenProjection::point(vec3 world) const {
 std::optional<std::pair<vec2, vec2>> ScreenProjection::segment(vec3 a, vec3 b) const {
   const float depth_a = view_.view_depth(a), depth_b = view_.view_depth(b);
   if (!(depth_a > near_) && !(depth_b > near_)) return std::nullopt;
-  // A little before the near plane, so that rounding does not lose the cut's own end.
+  // Slightly in front of the near plane, so that rounding does not discard the clipped end.
   const vec3 cut = glm::mix(a, b, (1.001f * near_ - depth_a) / (depth_b - depth_a));
   const auto from = point(depth_a > near_ ? a : cut), to = point(depth_b > near_ ? b : cut);
   if (!from || !to) return std::nullopt;
@@ -29,7 +29,7 @@ std::optional<std::pair<vec2, vec2>> ScreenProjection::segment(vec3 a, vec3 b) c
 Ray ScreenProjection::ray(vec2 screen) const { return view_.sight(to_film(screen)); }
 
 std::optional<vec2> ScreenProjection::film_position(vec2 screen) const {
-  const vec2 at = to_film(screen + 0.5f); // the middle of the screen's pixel
+  const vec2 at = to_film(screen + 0.5f); // centre of the screen pixel
   if (at.x < 0 || at.y < 0 || at.x >= film_.x || at.y >= film_.y) return std::nullopt;
   return at;
 }

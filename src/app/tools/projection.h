@@ -1,5 +1,5 @@
 #pragma once
-// Between the world and the screen: where a point is drawn, and what a mouse position looks along.
+// Mapping between world and screen: the position of a point, and the ray of a mouse position.
 
 #include "app/tools/viewport.h"
 #include "render/camera/camera_view.h"
@@ -11,18 +11,18 @@ namespace candela {
 
 class ScreenProjection {
 public:
-  /// `picture` is where a film of `film` pixels lies on the screen. The camera must have no camera_problem().
+  /// `picture` is the screen rectangle of a film of `film` pixels. The camera must have no camera_problem().
   ScreenProjection(const Camera& camera, const PixelRect& picture, ivec2 film);
 
-  /// Screen position in framebuffer pixels; nothing for what is not before the camera.
+  /// Screen position in framebuffer pixels; nothing for points behind the camera.
   std::optional<vec2> point(vec3 world) const;
-  /// The part of a segment that is before the camera; nothing if none is.
+  /// The part of a segment in front of the camera, if any.
   std::optional<std::pair<vec2, vec2>> segment(vec3 a, vec3 b) const;
-  /// The world-space ray of unit direction under a screen position.
+  /// The world-space ray, of unit direction, of a screen position.
   Ray ray(vec2 screen) const;
-  /// The film position under a screen position; nothing beside the picture.
+  /// The film position of a screen position; nothing outside the picture.
   std::optional<vec2> film_position(vec2 screen) const;
-  /// Scene units that a pixel of the screen spans at the depth of a point.
+  /// Size of a screen pixel in scene units at the depth of a point.
   float units_per_pixel(vec3 world) const;
   vec3 forward() const { return view_.forward(); }
   vec3 right() const { return view_.right(); }
@@ -37,7 +37,7 @@ private:
   CameraView view_;
   PixelRect picture_;
   vec2 film_;
-  float near_; ///< what is closer along the view axis is not drawn
+  float near_; ///< nearer points are not drawn
 };
 
 } // namespace candela

@@ -17,30 +17,31 @@ struct Selection {
   bool operator==(const Selection&) const = default;
 };
 
-/// The selection, or none if the scene has nothing of that index (any more).
+/// The selection, or none if the scene has no such object or light (any more).
 Selection checked_selection(const SceneDesc& scene, const Selection& selection);
 
 /// The name, or "Object 3", "Light 0"; empty for none.
 std::string selection_name(const SceneDesc& scene, const Selection& selection);
 
-/// Materials that emit, or emitted in `home`: one turned down to black can be turned up. The Lights panel
+/// Materials that emit, or did in `home`, so that one set to black can be edited again. The Lights panel
 /// lists them after the lights.
 std::vector<std::size_t> shining_materials(const SceneDesc& scene, const SceneDesc& home);
 
-/// The selection's place in the Lights panel: the light, or the first emitting material of the object.
+/// The selection's index in the Lights panel: the light, or the first emitting material of the object.
 std::optional<int> light_row(const SceneDesc& scene, const SceneDesc& home, const Selection& selection);
 
-/// Corners of the box about an object's shape, in world space: bit 0 of the index is x, bit 1 y, bit 2 z of
-/// the object's own axes.
+/// World-space corners of the bounding box of an object's shape; bits 0, 1, 2 of the index are x, y, z of the
+/// object's axes.
 using BoxCorners = std::array<vec3, 8>;
 
-/// Caches the box of the last mesh, so that one of a million vertices is scanned once.
+/// Caches the last mesh's bounds, since a mesh may have millions of vertices.
 class SelectionBox {
 public:
-  /// Nothing for what has no place: no selection, or an infinite light. A light is a point.
+  /// World-space corners of the selection's box; nothing without a selection or for an infinite light. A
+  /// light's box is a point.
   std::optional<BoxCorners> corners(const SceneDesc& scene, const Selection& selection);
-  /// What the selected object turns about and is scaled from, in its own space: the middle of its box; the
-  /// origin of what has none.
+  /// The centre of rotation and scaling in object space: the centre of the bounding box, or the origin
+  /// without one.
   vec3 middle(const SceneDesc& scene, const Selection& selection);
 
 private:

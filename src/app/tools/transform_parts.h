@@ -1,5 +1,5 @@
 #pragma once
-// A transform as the user types it: position, rotation, scale.
+// A transform as position, rotation and scale, which the user can type.
 
 #include "core/math.h"
 
@@ -13,15 +13,15 @@ struct TransformParts {
   bool operator==(const TransformParts&) const = default;
 };
 
-/// The parts whose product is nearest: exact but for rounding unless the matrix shears.
+/// The parts whose product is nearest to the matrix: exact up to rounding unless it shears.
 TransformParts transform_parts(const mat4& matrix);
 mat4 transform_of(const TransformParts& parts);
 
-/// Another rotation and scale for what `before` places, such that the point `middle` of the object's own
-/// space stays where it is: what handles turn and scale about, too.
+/// Replaces the rotation and scale of `before` such that the point `middle` in object space keeps its world
+/// position, as the handles do.
 TransformParts about_middle(const mat4& before, TransformParts parts, vec3 middle);
 
-/// Whether the matrix shears, so that no parts make it.
+/// Whether the matrix shears, so that it has no exact parts.
 bool has_shear(const mat4& matrix);
 
 } // namespace candela

@@ -60,7 +60,7 @@ void Viewport::show(std::shared_ptr<const DisplayImage> image) {
 }
 
 void Viewport::upload() {
-  // A film may be larger than the driver's textures: then every stride-th pixel must do for the screen.
+  // A film may exceed the driver's texture size: then only every stride-th pixel is shown.
   const int stride = (std::max(image_->width, image_->height) + max_size_ - 1) / max_size_;
   const std::uint8_t* texels = image_->rgba.data();
   ivec2 size(image_->width, image_->height);

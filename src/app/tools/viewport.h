@@ -1,6 +1,6 @@
 #pragma once
-// The picture: one texture, one quad. Where it lies in the framebuffer is decided here too, so that a mouse
-// position can be turned into a film position by the same numbers that drew it.
+// The picture: one texture on one quad. Its rectangle in the framebuffer is computed here, too, so that mouse
+// positions map to film positions exactly as drawn.
 
 #include "app/platform/gl.h"
 #include "core/math.h"
@@ -22,14 +22,13 @@ struct PixelRect {
 /// The largest rectangle of the film's aspect that fits into `region`, centred.
 PixelRect letterbox(const PixelRect& region, ivec2 film);
 
-/// The film at one screen pixel a film pixel, centred on the middle of `region`.
+/// The film at one screen pixel per film pixel, centred in `region`.
 PixelRect centered(const PixelRect& region, ivec2 film);
 
-/// The film as it is to look on the screen: `aspect` times as wide as high, or with square pixels if it is 0.
+/// The displayed proportions of the film: `aspect` is width over height; 0: square pixels.
 ivec2 view_shape(ivec2 film, float aspect);
 
-/// The film that fills the window with square pixels: of its size or, with an aspect above 0, as much of it
-/// as that leaves.
+/// The size of a film with square pixels that fills the window, restricted to `aspect` if that is above 0.
 ivec2 fitted_film(ivec2 window, float aspect);
 
 class Viewport {
@@ -39,11 +38,11 @@ public:
   Viewport(const Viewport&) = delete;
   Viewport& operator=(const Viewport&) = delete;
 
-  /// Uploads the picture unless it is the one that is there already; keeps it alive.
+  /// Uploads the picture unless it already is; keeps it alive.
   void show(std::shared_ptr<const DisplayImage> image);
   const std::shared_ptr<const DisplayImage>& shown() const { return image_; }
 
-  /// Draws the picture at `where`: nearest where it is magnified, filtered where it shrinks.
+  /// Draws the picture at `where`: nearest texel if magnified, filtered if reduced.
   void draw(const PixelRect& where, ivec2 framebuffer_size);
 
 private:

@@ -1,5 +1,5 @@
 #pragma once
-// A list box of which only the rows in view are drawn: a scene may have ten thousand objects.
+// A list box that draws only its visible rows: a scene may have ten thousand objects.
 
 #include "app/ui/widgets.h"
 
@@ -12,7 +12,7 @@
 
 namespace candela {
 
-/// "Material 3" for what has no name.
+/// "Material 3" for one without a name.
 inline std::string name_or_number(const std::string& name, std::string_view kind, std::size_t index) {
   return name.empty() ? fmt::format("{} {}", kind, index) : name;
 }

@@ -13,7 +13,7 @@ constexpr int kFloatDigits = 7;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// How many digits there are at the front, which are taken off.
+/// Removes the leading digits and returns their number.
 std::size_t take_digits(std::string_view& text) {
   std::size_t count = 0;
   while (count < text.size() && is_digit(text[count])) ++count;
@@ -50,7 +50,7 @@ std::optional<double> typed_number(std::string_view text) {
 
   std::string plain(text);
   if (const auto comma = plain.find(','); comma != std::string::npos) plain[comma] = '.';
-  const char* begin = plain.data() + (plain.front() == '+' ? 1 : 0); // which from_chars does not know
+  const char* begin = plain.data() + (plain.front() == '+' ? 1 : 0); // from_chars does not accept a plus sign
   double value = 0;
   const auto read = std::from_chars(begin, plain.data() + plain.size(), value);
   if (read.ec != std::errc() || read.ptr != plain.data() + plain.size()) return std::nullopt;

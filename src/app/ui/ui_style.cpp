@@ -19,9 +19,9 @@ constexpr ImWchar kGlyphs[] = {0x20, 0x24f, 0x370, 0x52f, 0x2010, 0x2027, 0x2030
 
 ImVec4 grey(float value, float alpha = 1) { return {value, value, value, alpha}; }
 
-/// Adds the glyphs that the typefaces of other scripts have to the font before, and makes the atlas.
+/// Merges the glyphs of the other scripts' typefaces into the last font, and builds the atlas.
 void merge_fallbacks(ImFontAtlas& atlas, float size, std::set<char32_t> wanted) {
-  std::deque<ImVector<ImWchar>> ranges; // which the atlas only points to until it is built
+  std::deque<ImVector<ImWchar>> ranges; // the atlas keeps pointers to them until it is built
   for (const std::filesystem::path& file : find_fallback_typefaces()) {
     if (wanted.empty()) break;
     ImFontGlyphRangesBuilder builder;
@@ -32,9 +32,9 @@ void merge_fallbacks(ImFontAtlas& atlas, float size, std::set<char32_t> wanted) 
         if (there) builder.AddChar(static_cast<ImWchar>(c));
         return there;
       });
-    } catch (const Error&) { continue; } // a broken file: there are others
+    } catch (const Error&) { continue; } // a broken file: try the others
     builder.BuildRanges(&ranges.emplace_back());
-    if (ranges.back().Size < 3) continue; // nothing of it
+    if (ranges.back().Size < 3) continue; // no glyph of this typeface
     ImFontConfig config;
     config.MergeMode = true;
     config.PixelSnapH = true;
@@ -56,7 +56,7 @@ UiFonts load_fonts(ImFontAtlas& atlas, float scale, const std::set<char32_t>& mo
   ImFontConfig config;
   config.OversampleH = scale < 1.5f ? 3 : 2;
   config.OversampleV = 1;
-  config.PixelSnapH = true; // and so equal advances stay equal
+  config.PixelSnapH = true; // so that equal advances stay equal
   const float size = std::round(kTextSize * scale);
   if (const std::filesystem::path file = find_typeface(); !file.empty())
     if (ImFont* font = atlas.AddFontFromFileTTF(file.c_str(), size, &config, kGlyphs)) {
@@ -91,7 +91,7 @@ void apply_style(float scale) {
   style.ScaleAllSizes(scale);
 
   auto* colors = style.Colors;
-  const ImVec4 accent(0.85f, 0.62f, 0.30f, 1); // candle light; used for marks only, never for areas
+  const ImVec4 accent(0.85f, 0.62f, 0.30f, 1); // candlelight; for marks only, not for areas
   colors[ImGuiCol_Text] = grey(0.87f);
   colors[ImGuiCol_TextDisabled] = grey(0.56f);
   colors[ImGuiCol_WindowBg] = grey(kPanelGrey);

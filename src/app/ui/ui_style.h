@@ -1,5 +1,5 @@
 #pragma once
-// Looks: a scalable typeface from Debian's packages and a neutral dark style, both sized by the monitor.
+// The style: a scalable typeface from Debian's packages and neutral dark colours, scaled for the monitor.
 
 #include <set>
 
@@ -8,21 +8,21 @@ struct ImFont;
 
 namespace candela {
 
-/// Grey of the empty window, sRGB; neutral, because a coloured frame lies about colours.
+/// Grey of the empty window, sRGB; neutral, because a coloured surround distorts perceived colours.
 inline constexpr float kBackgroundGrey = 0.11f;
-inline constexpr float kPanelGrey = 0.145f; ///< the ground of panels
+inline constexpr float kPanelGrey = 0.145f; ///< background of the panels
 
 struct UiFonts {
   ImFont* regular = nullptr;
-  bool scalable = false; ///< false: none of the typefaces is installed, ImGui's own stands in
+  bool scalable = false; ///< false: none of the typefaces is installed, ImGui's own is used
 };
 
-/// Fills an empty atlas for the scale (1: 96 dots an inch). The first installed typeface whose digits are all
-/// equally wide is taken, so that running numbers stand still. It has the letters of Europe; those of other
-/// scripts (`more`) come from the typefaces that have them, as far as such are installed.
+/// Fills an empty atlas for the scale (1: 96 dots per inch). Uses the first installed typeface with digits of
+/// equal width, so that changing numbers do not jitter. It has the letters of Europe; those of other scripts
+/// (`more`) come from other installed typefaces.
 UiFonts load_fonts(ImFontAtlas& atlas, float scale, const std::set<char32_t>& more = {});
 
-/// Whether every atlas has it, or nothing is drawn for it.
+/// Whether every atlas has the character, or it is invisible.
 bool is_common_glyph(char32_t code_point);
 
 /// Sets the current ImGui context's style for the scale.

@@ -25,7 +25,7 @@ std::string humanised(std::string_view key) {
 std::string_view consequence(Invalidates invalidates) {
   switch (invalidates) {
   case Invalidates::nothing: return "Restarts nothing.";
-  case Invalidates::display: return "Only shows the picture anew; restarts nothing.";
+  case Invalidates::display: return "Only updates the display; restarts nothing.";
   case Invalidates::image: return "Restarts the image.";
   case Invalidates::scene: return "Rebuilds the lights or the geometry, then restarts the image.";
   }
@@ -51,7 +51,7 @@ std::string field_tooltip(const FieldInfo& row, const void* initial) {
 void Ui::begin_frame(float scale) {
   scale_ = scale;
   widgets_.clear();
-  if (!typing_drawn_) typing_ = 0; // its panel was folded away: what was typed is dropped
+  if (!typing_drawn_) typing_ = 0; // its panel was closed: drop the typed text
   typing_drawn_ = false;
   typed_field_ = std::exchange(typed_now_, std::nullopt);
 }
@@ -156,7 +156,7 @@ bool Ui::asked_path(const char* name, const char* hint, std::string& value, floa
   const bool entered = text(name, hint, value, width);
   if (!wanted || ImGui::GetActiveID() != item) return entered;
   wanted = false;
-  if (ImGuiInputTextState* state = ImGui::GetInputTextState(item)) { // the folder and the ending mostly stay
+  if (ImGuiInputTextState* state = ImGui::GetInputTextState(item)) { // folder and ending usually stay
     const std::size_t slash = value.rfind('/'), begin = slash == std::string::npos ? 0 : slash + 1;
     const std::size_t dot = value.rfind('.'),
                       end = dot == std::string::npos || dot <= begin ? value.size() : dot;
@@ -196,7 +196,7 @@ bool Ui::choice_widget(const std::string& name, int& value, std::span<const std:
   const std::string current(choices[static_cast<std::size_t>(value)]);
   const bool open =
       ImGui::BeginCombo(fmt::format("##{}", name).c_str(), current.c_str(), ImGuiComboFlags_HeightLarge);
-  // BeginCombo has begun the popup's window when it is open: its own rectangle is the last item's before.
+  // If the popup is open, BeginCombo has begun its window, so the combo's rectangle must be taken before.
   if (!open) {
     record(name);
     return false;
@@ -221,7 +221,7 @@ bool Ui::field(const std::string& name, const FieldInfo& row, void* value, const
   const float column = kLabelWidth * scale_ + ImGui::GetStyle().WindowPadding.x;
 
   alignas(
-      vec3) unsigned char storage[sizeof(vec3)] = {}; // edited beside the value, so that it can be refused
+      vec3) unsigned char storage[sizeof(vec3)] = {}; // a copy of the value, so that an edit can be refused
   void* edited = storage;
   field_copy(row, edited, value);
   switch (row.type) {
@@ -257,7 +257,7 @@ bool Ui::field(const std::string& name, const FieldInfo& row, void* value, const
            style_of(row, number.integer ? number.i : static_cast<double>(number.f), context), reset);
     record(name);
     tooltip(tip);
-    if (number == before) break; // degrees and back need not be the same float
+    if (number == before) break; // converting to degrees and back may change the float
     if (number.integer)
       *static_cast<int*>(edited) =
           static_cast<int>(std::clamp(static_cast<double>(number.i), row.minimum, row.maximum));

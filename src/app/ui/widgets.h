@@ -1,6 +1,6 @@
 #pragma once
-// The widgets that the panels are made of: Dear ImGui's, with a name for each (what a test clicks on), the
-// label on the left, the field table's range, unit and help, typed values, and a double click that resets.
+// The panels' widgets: Dear ImGui's with names (for the tests), labels on the left, range, unit and help from
+// the field tables, typed values, and reset by a double click.
 
 #include "core/fields.h"
 
@@ -14,33 +14,33 @@
 
 namespace candela {
 
-/// Where a widget was drawn in the last frame, in framebuffer pixels.
+/// The rectangle of a widget in the last frame, framebuffer pixels.
 struct WidgetRecord {
   std::string name; ///< "path.max_depth"; components append ".x", ".r", …, items "/sobol", labels "#label"
   vec2 lo{0};
   vec2 hi{0};
-  vec2 clip_lo{0}; ///< what lies outside of the clip rectangle was scrolled away
+  vec2 clip_lo{0}; ///< parts outside of the clip rectangle are hidden by scrolling
   vec2 clip_hi{0};
 };
 
-/// What a field's value goes back to, and how to say what an edit of it costs.
+/// The default value and the appearance of a field.
 struct FieldContext {
-  const void* initial = nullptr; ///< the value that a double click brings back
+  const void* initial = nullptr; ///< the value that a double click restores
   std::string_view label;        ///< empty: the last part of the key
-  float drag_speed = 0.01f;      ///< units a pixel of fields without an upper limit
+  float drag_speed = 0.01f;      ///< units per pixel, for fields without an upper limit
 };
 
 class Ui {
 public:
-  /// To be called between ImGui::NewFrame() and the first widget. `scale` 1 is 96 dots an inch.
+  /// Called between ImGui::NewFrame() and the first widget. `scale` 1 is 96 dots per inch.
   void begin_frame(float scale);
 
   std::span<const WidgetRecord> widgets() const { return widgets_; }
   float scale() const { return scale_; }
 
-  /// A fold; true while it is open.
+  /// A collapsible section; true while it is open.
   bool section(const char* name, const char* label, bool open_at_first);
-  /// Which folds are open where that is not how they are at first, by name; to be remembered.
+  /// Sections whose open state differs from the default, by name; stored in the preferences.
   const std::map<std::string, bool>& open_sections() const { return open_sections_; }
   void set_open_sections(std::map<std::string, bool> open) { open_sections_ = std::move(open); }
   bool subsection(const char* name, const char* label, bool open_at_first);
@@ -50,31 +50,31 @@ public:
               std::string_view tooltip);
   bool number(const char* name, const char* label, float& value, float lo, float hi, const char* format,
               float initial, std::string_view tooltip);
-  /// True when Enter was pressed in it.
+  /// A text field; true when Enter was pressed in it.
   bool text(const char* name, const char* hint, std::string& value, float width);
-  /// The same of a path that is asked for: while `wanted`, the field takes the keyboard, with the file's stem
-  /// selected; then that is done.
+  /// A text field for a requested path: if `wanted`, it gets the keyboard focus with the file's stem
+  /// selected, and `wanted` is cleared.
   bool asked_path(const char* name, const char* hint, std::string& value, float width, bool& wanted);
-  /// A label and a text that is only read.
+  /// A label and a read-only text.
   void readout(const char* label, std::string_view value, std::string_view tooltip = {});
 
-  /// One row of a field table with the widget that suits its type; true when the value changed. The value
-  /// stays within its row for any text.
+  /// The widget of a row of a field table; true when the value changed. Typed values are clamped to the row's
+  /// range.
   bool field(const std::string& name, const FieldInfo& row, void* value, const FieldContext& context);
 
-  /// Writes down where the last ImGui item is.
+  /// Records the rectangle of the last ImGui item.
   void record(std::string name);
-  /// The same for what is drawn without a widget.
+  /// Records the rectangle of something drawn without a widget.
   void record(std::string name, vec2 lo, vec2 hi);
-  /// The tooltip of the last item, if the mouse is on it and no hand is at work: it would cover what is
-  /// typed.
+  /// The tooltip of the last item, if the mouse is on it and nothing is being edited: it would cover the
+  /// typed text.
   void tooltip(std::string_view text);
 
-  /// Where in the last frame the field was that is typed into; nothing if none is.
+  /// The rectangle of the active text field in the last frame, if any.
   std::optional<WidgetRecord> typed_field() const { return typed_field_; }
-  /// Why what was typed did not count, once for each time; empty if there is nothing to say.
+  /// Why the last entry was refused; returned once, then empty.
   std::string take_refusal() { return std::exchange(refusal_, {}); }
-  /// Until when, on ImGui's clock, the field that refused it is marked.
+  /// The time on ImGui's clock until which the refusing field is marked.
   double marked_until() const { return marked_until_; }
 
 private:
@@ -82,7 +82,7 @@ private:
     bool integer = false;
     bool slider = false;
     bool logarithmic = false;
-    double lo = 0, hi = 0; ///< of the slider; typed values may leave it, as far as the row allows
+    double lo = 0, hi = 0; ///< range of the slider; typed values may exceed it within the row's range
     float speed = 0.01f;
     std::string format;
   };
@@ -111,10 +111,10 @@ private:
   float scale_ = 1;
   std::map<std::string, bool> open_sections_;
   std::vector<WidgetRecord> widgets_;
-  // A number that is being typed counts when it is done: 1 and 19 are not values while 192 is typed.
+  // A typed number is applied when the entry is finished: while 192 is typed, 1 and 19 are not.
   unsigned typing_ = 0; // ImGui's id of the field, 0: none
   bool typing_drawn_ = false;
-  std::string typed_, typed_at_first_; // the text in it, and what it was before
+  std::string typed_, typed_at_first_; // the current text, and the initial one
   std::optional<WidgetRecord> typed_field_, typed_now_;
   std::string refusal_;
   unsigned refused_by_ = 0; // ImGui's id of a field

@@ -1,4 +1,4 @@
-// Numbers, vectors and colours of the widgets.
+// Widgets of numbers, vectors and colours.
 
 #include "app/ui/typed_number.h"
 #include "app/ui/widgets.h"
@@ -17,26 +17,26 @@ namespace candela {
 
 namespace {
 
-/// Upper end of a logarithmic slider whose row goes on for ever; typed values may be larger.
+/// Upper end of a logarithmic slider whose row has no maximum; typed values may be larger.
 constexpr double kLogSliderEnd = 1000;
-/// A range that a slider of some 200 pixels can still be set with.
+/// The largest range that a slider of about 200 pixels can resolve.
 constexpr double kSliderRange = 512;
 
-/// A percent sign would be taken for a conversion.
+/// Escapes percent signs, which would be read as conversions.
 std::string escaped(std::string_view unit) {
   std::string out;
   for (char c : unit) out += c == '%' ? "%%" : std::string(1, c);
   return out;
 }
 
-/// Significant digits of numbers, and of those that share a row.
+/// Significant digits of single numbers, and of several in one row.
 constexpr int kDigits = 4, kVectorDigits = 3;
-/// Of a number that is being typed: as many as a float has.
+/// Significant digits of a number that is being typed: as many as a float has.
 constexpr int kTypedDigits = 7;
 constexpr std::size_t kMostTyped = 63; // bytes
 constexpr double kMarkSeconds = 2;
 
-/// Puts a text, all of it selected, into the field that has just begun.
+/// Sets the text of a field that has just become active, and selects it.
 void set_typed_text(ImGuiInputTextState& state, const std::string& text) {
   const char* end = nullptr;
   state.TextW.resize(kMostTyped + 1);
@@ -68,7 +68,7 @@ Ui::NumberStyle Ui::style_of(const FieldInfo& row, double value, const FieldCont
   } else {
     style.slider = row.maximum - row.minimum <= kSliderRange;
   }
-  // Without a slider's ends, the step follows the value: some 100 pixels double it.
+  // Without limits, the step is proportional to the value: about 100 pixels double it.
   style.speed =
       style.integer ? std::max(0.1f, static_cast<float>(std::abs(value)) * 0.01f) : context.drag_speed;
   style.format = style.integer ? "%d" : plain_number_format(value, kDigits);
@@ -85,7 +85,7 @@ Ui::NumberStyle Ui::style_of(const FieldInfo& row, double value, const FieldCont
 bool Ui::scalar(const char* id, Scalar& value, const NumberStyle& style, bool& reset) {
   const ImGuiID item = ImGui::GetID(id);
   ImGuiIO& io = ImGui::GetIO();
-  // A double click resets. ImGui must not see it: it would begin to type (drags) or to slide.
+  // A double click resets. It is hidden from ImGui, which would begin text input or sliding.
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 end(at.x + ImGui::CalcItemWidth(), at.y + ImGui::GetFrameHeight());
   const bool double_click = io.MouseClickedCount[0] == 2 && !io.KeyCtrl && ImGui::IsWindowHovered() &&
@@ -95,7 +95,7 @@ bool Ui::scalar(const char* id, Scalar& value, const NumberStyle& style, bool& r
     if (ImGui::GetActiveID() == item) ImGui::ClearActiveID();
     io.MouseClicked[0] = false;
     io.MouseClickedCount[0] = 0;
-    if (typing_ == item) typing_ = 0; // its first click has begun that
+    if (typing_ == item) typing_ = 0; // the first click has begun text input
   }
   if (typing_ == item && ImGui::TempInputIsActive(item)) {
     const bool changed = type_scalar(item, id, value, style);
@@ -123,7 +123,7 @@ bool Ui::scalar(const char* id, Scalar& value, const NumberStyle& style, bool& r
     io.MouseClickedCount[0] = 2;
     return false;
   }
-  if (ImGui::TempInputIsActive(item)) { // it has become a text field: from now on it is ours
+  if (ImGui::TempInputIsActive(item)) { // it has become a text field, which type_scalar() handles
     typing_ = item;
     typing_drawn_ = true;
     typed_ =
@@ -133,7 +133,7 @@ bool Ui::scalar(const char* id, Scalar& value, const NumberStyle& style, bool& r
     if (refused_by_ == item) refused_by_ = 0;
     return false;
   }
-  if (typing_ == item) { // a click elsewhere has ended it, or Tab
+  if (typing_ == item) { // ended by a click elsewhere, or by Tab
     typing_ = 0;
     return take_typed(item, value, style);
   }
@@ -142,8 +142,8 @@ bool Ui::scalar(const char* id, Scalar& value, const NumberStyle& style, bool& r
   return true;
 }
 
-/// The field while it is typed into. Dear ImGui's own leaves out the characters that it does not like, so
-/// that 1,5 became 15, and reads as far as it understands, so that 2+3 became 2.
+/// The field while text is typed. Dear ImGui's own drops characters, so that 1,5 became 15, and parses only a
+/// prefix, so that 2+3 became 2.
 bool Ui::type_scalar(unsigned item, const char* id, Scalar& value, const NumberStyle& style) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImRect box(at, ImVec2(at.x + ImGui::CalcItemWidth(), at.y + ImGui::GetFrameHeight()));
@@ -155,13 +155,13 @@ bool Ui::type_scalar(unsigned item, const char* id, Scalar& value, const NumberS
   ImGui::TempInputText(box, item, id, text.data(), static_cast<int>(text.size()), ImGuiInputTextFlags_None);
   typed_ = text.data();
   if (ImGui::TempInputIsActive(item)) return false;
-  typing_ = 0; // by Enter; Escape takes it back
+  typing_ = 0; // by Enter; Escape reverts
   return !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)) && take_typed(item, value, style);
 }
 
-/// Reads what was typed; what is no number is refused, and the value stays.
+/// Parses the typed text; text that is not a number is refused, and the value stays.
 bool Ui::take_typed(unsigned item, Scalar& value, const NumberStyle& style) {
-  if (typed_ == typed_at_first_) return false; // the digits that were not shown stay, too
+  if (typed_ == typed_at_first_) return false; // keeps digits that were not shown
   const std::optional<double> typed = typed_number(typed_);
   if (!typed) {
     const bool both = typed_.find(',') != std::string::npos && typed_.find('.') != std::string::npos;
@@ -194,7 +194,7 @@ void Ui::refuse(unsigned item, std::string why) {
   marked_until_ = ImGui::GetTime() + kMarkSeconds;
 }
 
-/// Frames the last item in red for a while after it has refused something.
+/// Draws a red frame around the last item for a short time after it has refused an entry.
 void Ui::mark_refusal(unsigned item) const {
   if (refused_by_ != item || ImGui::GetTime() >= marked_until_) return;
   ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
@@ -235,8 +235,8 @@ bool Ui::vector_field(const std::string& name, const FieldInfo& row, vec3& value
   return changed;
 }
 
-/// The swatch shows the colour as the screen will; the picker works on the encoded values, where equal steps
-/// look equal, and leaves the brightness of an emission above 1 as it is.
+/// The swatch shows the displayed colour. The picker works on encoded values, which are perceptually more
+/// uniform, and keeps the brightness of an emission above 1.
 bool Ui::color_swatch(const std::string& name, vec3& linear) {
   const float brightness = std::max(1.0f, max_component(linear));
   vec3 shown = encoded(linear / brightness);
@@ -271,7 +271,7 @@ bool Ui::color_picker(const std::string& name, vec3& encoded) {
     style.speed = 1;
     style.format = fmt::format("{} %d", "RGB"[i]);
     Scalar level{true, static_cast<int>(std::lround(255 * std::clamp(encoded[i], 0.0f, 1.0f))), 0};
-    bool reset = false; // to what? the swatch's own row knows
+    bool reset = false; // handled by the row of the swatch
     if (scalar("##level", level, style, reset)) {
       encoded[i] = static_cast<float>(std::clamp(level.i, 0, 255)) / 255;
       changed = true;
@@ -283,7 +283,7 @@ bool Ui::color_picker(const std::string& name, vec3& encoded) {
   return color_code(name + ".picker.code", encoded) || changed;
 }
 
-/// The colour as #rrggbb. What is typed counts as soon as it is one; Enter on anything else is refused.
+/// The colour as #rrggbb. It is applied as soon as the text is valid; Enter on other text is refused.
 bool Ui::color_code(const std::string& name, vec3& encoded) {
   std::string code = "#";
   for (int i = 0; i < 3; ++i)

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What names others comes before what it may name.
+/// Order of preference: files that refer to others come first.
 enum class Kind { scene, model, picture, part, other };
 
 Kind kind_of(const std::string& path) {
@@ -40,7 +40,7 @@ std::string listed(const std::vector<std::string>& paths) {
   return text;
 }
 
-/// The one scene of a folder.
+/// The only scene of a folder.
 Dropped choose_in_folder(const std::string& folder) {
   constexpr std::size_t kMostLooked = 10000;
   std::vector<std::string> scenes, models;
@@ -80,7 +80,7 @@ Dropped choose_dropped(const std::vector<std::string>& paths) {
     if (!inside.remark.empty()) problems.push_back(std::move(inside.remark));
   }
   if (files.empty()) return {"", problems.empty() ? "" : problems.front()};
-  const auto chosen = std::ranges::min_element(files, {}, kind_of); // the first of the best
+  const auto chosen = std::ranges::min_element(files, {}, kind_of); // the first file of the preferred kind
   std::set<std::string> models;                                     // without their endings
   for (const std::string& file : files)
     if (kind_of(file) == Kind::model) models.insert(fs::path(file).replace_extension().string());

@@ -19,10 +19,10 @@ FileWatch::~FileWatch() {
 void FileWatch::watch(std::set<std::string> files, FileStamps known) {
   {
     std::lock_guard lock(mutex_);
-    // What was not taken yet stays, but for what has been read since.
+    // Changes that were not taken yet are kept, except for files that have been read since.
     std::erase_if(changed_,
                   [&](const std::string& file) { return !files.contains(file) || known.contains(file); });
-    for (auto& [file, stamp] : known_) known.emplace(file, stamp); // not looked at yet
+    for (auto& [file, stamp] : known_) known.emplace(file, stamp); // not checked yet
     files_ = std::move(files);
     known_ = std::move(known);
     ++generation_;
@@ -47,7 +47,7 @@ FileStamps FileWatch::look(const std::set<std::string>& files) {
 }
 
 void FileWatch::run(double seconds) {
-  FileStamps told, last; // what was last told of each file; how they were at the last look
+  FileStamps told, last; // stamps as last reported; stamps at the last check
   std::unique_lock lock(mutex_);
   while (!stopping_) {
     const std::set<std::string> files = files_;
@@ -57,7 +57,7 @@ void FileWatch::run(double seconds) {
     FileStamps now = look(files);
     const std::chrono::duration<double> looked = std::chrono::steady_clock::now() - began;
     lock.lock();
-    if (generation != generation_) continue; // others are to be watched
+    if (generation != generation_) continue; // the set of files has changed
     for (auto& [file, stamp] : std::exchange(known_, {})) told.insert_or_assign(file, stamp);
     std::erase_if(told, [&](const auto& entry) { return !files.contains(entry.first); });
     told.insert(now.begin(), now.end());
@@ -73,7 +73,7 @@ void FileWatch::run(double seconds) {
       wake_();
       lock.lock();
     }
-    // Thousands of files, or a slow disk, are looked at the more seldom.
+    // Thousands of files, or a slow disk, are polled less often.
     constexpr double kShare = 0.05;
     ended_.wait_for(lock, std::max(std::chrono::duration<double>(seconds), looked / kShare),
                     [&] { return stopping_ || generation_ != generation; });

@@ -20,12 +20,12 @@ public:
   FileWatch(const FileWatch&) = delete;
   FileWatch& operator=(const FileWatch&) = delete;
 
-  /// Watches these instead: compares with their stamps in `known`, else with those last reported, else with
-  /// those of now.
+  /// Watches these files instead: compares with their stamps in `known`, else with those last reported, else
+  /// with the current ones.
   void watch(std::set<std::string> files, FileStamps known = {});
 
-  /// Those that were written, made or removed since, and then came to rest: a file that is still being
-  /// written would be read half. Each change is reported once.
+  /// The files that were written, created or removed since and have not changed again: a file that is still
+  /// being written would be incomplete. Each change is reported once.
   std::set<std::string> take_changes();
   bool has_change() const;
 

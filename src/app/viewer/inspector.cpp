@@ -14,7 +14,7 @@ namespace candela {
 namespace {
 
 constexpr double kFocusMarkSeconds = 4;
-/// Depths of so many pixels take some 50 ms beside the render.
+/// Depths of so many pixels take about 50 ms while rendering.
 constexpr double kMaxDepths = 250000;
 
 } // namespace
@@ -86,7 +86,7 @@ void Inspector::update(ViewerState& state, const RenderSession& session, const P
           inspect.probe_pixel = glm::min(ivec2(inside * vec2(film)), film - 1);
       }
     } else if (inspect.probe_pixel->x >= film.x || inspect.probe_pixel->y >= film.y) {
-      inspect.probe_pixel.reset(); // another film
+      inspect.probe_pixel.reset(); // the film size has changed
       inspect.probe_frozen = false;
     }
     inspect.probe_pick.reset();
@@ -104,7 +104,7 @@ void Inspector::update(ViewerState& state, const RenderSession& session, const P
       };
     });
   }
-  inspect.histogram_open = false; // until the panel is drawn
+  inspect.histogram_open = false; // set again when the panel is drawn
   depths_current_ = false;
   if (inspect.focus_plane_visible) ask_for_depths(session);
 }
@@ -135,7 +135,7 @@ void Inspector::paint_focus_plane(const Camera& camera, ivec2 film) {
   const CameraView::Interval sharp = view.depth_of_field(sharp_blur(film.y));
   using Texel = std::array<std::uint8_t, 4>;
   constexpr Texel kNone{0, 0, 0, 0}, kSharp{60, 220, 255, 70}, kPlane{60, 220, 255, 230};
-  constexpr float kSameSurface = 0.05f; // of the focus: a larger step of depth is an edge
+  constexpr float kSameSurface = 0.05f; // of the focus distance: a larger depth step is an edge
   std::vector<Texel> texels(map.depth.size(), kNone);
   const auto width = static_cast<std::size_t>(map.width);
   for (std::size_t i = 0; i < map.depth.size(); ++i) {
@@ -164,7 +164,7 @@ void Inspector::draw_focus_plane(const ViewerState& state, const PixelRect& pict
   if (!state.inspect.focus_plane_visible || !depths_current_) return;
   const Camera& camera = state.document.scene.camera;
   if (painted_depths_ != depths_ || painted_camera_ != camera) paint_focus_plane(camera, depth_of_.film);
-  // The map may stand for some pixels beyond the film's edge.
+  // The map may extend beyond the film's edge by some pixels.
   const vec2 stride = glm::ceil(vec2(depth_of_.film) / vec2(depths_->width, depths_->height));
   const vec2 end = vec2(depth_of_.film) / (stride * vec2(depths_->width, depths_->height));
   ImGui::GetBackgroundDrawList()->AddImage(

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kMaxPictures = 100000;
 
-/// Makes the file if there is none of that name; false if there is.
+/// Creates the file; false if it exists.
 bool reserve(const fs::path& path) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file >= 0) {
@@ -31,11 +31,11 @@ bool reserve(const fs::path& path) {
                      "start Candela in a folder that you may write to");
 }
 
-/// What it takes to make the picture again.
+/// The state from which the picture can be rendered again.
 PictureState state_of(const DisplayImage& image) {
   const Frame& frame = *image.frame;
   PictureState state{*frame.document, std::max(image.denoised ? image.denoised->spp : frame.spp, 1), {}};
-  state.document.settings.display = image.display; // neither restarts an accumulation
+  state.document.settings.display = image.display; // changing these restarts no accumulation
   state.document.settings.view = frame.view;
   return state;
 }
@@ -68,7 +68,7 @@ SavedPicture save_picture(const DisplayImage& image, const fs::path& folder, con
                       with_state(metadata, state, names.png.string()));
     write_linear_image({image.width, image.height, image.linear()}, names.exr.string(),
                        with_state(metadata, state, names.exr.string()));
-  } catch (...) { // the reserved names are still empty files: take them back
+  } catch (...) { // the reserved names are still empty files: remove them
     std::error_code ignored;
     fs::remove(names.png, ignored);
     fs::remove(names.exr, ignored);

@@ -1,5 +1,5 @@
 #pragma once
-// Saves what is on the screen: a PNG of just those bytes and an EXR of the radiance behind them.
+// Saves the displayed picture: a PNG with exactly those bytes, and an EXR with the linear values.
 
 #include "session/render_session.h"
 
@@ -13,9 +13,9 @@ struct SavedPicture {
   std::filesystem::path exr;
 };
 
-/// Writes <folder>/<stem>-NNNN.png and .exr with the lowest number that neither has yet. The names are
-/// reserved before anything is written, so no file is ever overwritten, not even one that another process
-/// makes at the same moment. An output_error if the folder cannot be written to.
+/// Writes <folder>/<stem>-NNNN.png and .exr with the lowest number that is free for both. The names are
+/// reserved first, so that no file is overwritten, even if another process creates files at the same time. An
+/// output_error if the folder cannot be written to.
 SavedPicture save_picture(const DisplayImage& image, const std::filesystem::path& folder,
                           const std::string& stem);
 

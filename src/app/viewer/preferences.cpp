@@ -22,7 +22,7 @@ constexpr std::size_t kMaxRecent = 10, kMaxSections = 500, kMaxPath = 4096;
 /// Deep nesting is refused: the parser recurses when the value is destroyed.
 constexpr int kMaxDepth = 8;
 
-/// Takes the members that are as they should be and remembers the names of the others.
+/// Reads the valid members and collects the names of the others.
 class Reader {
 public:
   explicit Reader(const json& root) : root_(root) {}
@@ -122,8 +122,8 @@ Preferences read_preferences(const fs::path& path, std::string& warning) {
     std::vector<std::string> odd;
     Preferences preferences = from_json(root, odd);
     if (!odd.empty())
-      warning = fmt::format("{}: what it says of {} is left out: it will be written anew", path.string(),
-                            fmt::join(odd, ", "));
+      warning = fmt::format("{}: the values of {} are invalid and ignored: the file will be rewritten",
+                            path.string(), fmt::join(odd, ", "));
     return preferences;
   } catch (const std::exception& error) { // an Error of the file, or the JSON library's
     warning = fmt::format("{}: the preferences are not used ({}): they will be written anew", path.string(),
@@ -134,12 +134,12 @@ Preferences read_preferences(const fs::path& path, std::string& warning) {
 
 void write_preferences(const Preferences& p, const fs::path& path) {
   std::error_code failed;
-  fs::create_directories(path.parent_path(), failed); // writing says what is wrong with it
+  fs::create_directories(path.parent_path(), failed); // an error is reported when the file is written
   const json root = {{"window_width", p.window.x},         {"window_height", p.window.y},
                      {"text_zoom", p.text_zoom},           {"speed_factor", p.speed_factor},
                      {"panels_visible", p.panels_visible}, {"overlays_visible", p.overlays_visible},
                      {"open_sections", p.open_sections},   {"recent", p.recent}};
-  // A path need not be UTF-8: what is not is written as U+FFFD rather than refused.
+  // A path need not be UTF-8: invalid bytes are written as U+FFFD rather than refused.
   write_file_atomically(path.string(), root.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the window keeps between runs: its size, its layout, recent files.
+// Preferences that the window stores between runs: size, layout, recent files.
 
 #include "core/math.h"
 
@@ -17,26 +17,26 @@ struct Preferences {
   bool panels_visible = true;
   bool overlays_visible = true;
   std::map<std::string, bool> open_sections; ///< by the widget's name
-  std::vector<std::string> recent;           ///< absolute paths, the last one first
+  std::vector<std::string> recent;           ///< absolute paths, the most recent first
   bool operator==(const Preferences&) const = default;
 };
 
-/// What a window has at scale 1, and what it has of it at another scale: rounded, so that a window
-/// keeps its size however often it is stored and opened again.
+/// Converts a window's size to and from scale 1, rounded such that storing and opening it repeatedly keeps
+/// the size.
 ivec2 size_at_scale_one(ivec2 framebuffer, float scale);
 ivec2 size_at_scale(ivec2 size, float scale);
 
-/// $XDG_CONFIG_HOME/candela/preferences.json, or below ~/.config; empty where there is neither.
+/// $XDG_CONFIG_HOME/candela/preferences.json, or below ~/.config; empty if neither is set.
 std::filesystem::path default_preferences_path();
 
-/// The valid values of the file, defaults for the rest. `warning` names what was ignored; a missing file
-/// gives none.
+/// The valid values of the file, defaults for the rest. `warning` names ignored values; a missing file gives
+/// no warning.
 Preferences read_preferences(const std::filesystem::path& path, std::string& warning);
 
-/// Makes the folder if need be; the file appears whole or not at all. output_error if it cannot be written.
+/// Creates the folder if needed and writes the file atomically. output_error if it cannot be written.
 void write_preferences(const Preferences& preferences, const std::filesystem::path& path);
 
-/// Puts the file at the front of the list, which has each once and at most some ten.
+/// Moves or adds the file to the front of the list, which is limited to about ten.
 void add_recent(Preferences& preferences, const std::string& path);
 
 } // namespace candela

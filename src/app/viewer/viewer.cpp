@@ -44,7 +44,7 @@ Viewer::Viewer(const Gl& gl, ViewerOptions options)
   imgui_ = ImGui::CreateContext();
   ImGui::SetCurrentContext(imgui_);
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr; // leaves no files behind
+  io.IniFilename = nullptr; // ImGui must write no file
   io.LogFilename = nullptr;
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset | ImGuiBackendFlags_HasMouseCursors;
   io.ConfigDragClickToInputText = true;
@@ -132,7 +132,7 @@ bool Viewer::frame(double now, bool may_wait) {
   if (std::string refusal = ui_.take_refusal(); !refusal.empty()) notify(std::move(refusal));
   draw_overlay();
   typing_ = io.WantTextInput || imgui_->WantTextInputNextFrame > 0;
-  if (typing_ || !single_keys_act(Key::w)) held_.clear(); // a question ends flight
+  if (typing_ || !single_keys_act(Key::w)) held_.clear(); // a question ends the flight
   use_mouse_on_picture();
   fly();
   serve_requests();
@@ -175,7 +175,7 @@ void Viewer::serve_requests() {
   if (state_.reset_view_requested) {
     state_.edited |= state_.document.scene.camera != state_.home.scene.camera;
     state_.document.scene.camera = state_.home.scene.camera;
-    notify("The view is the scene's own again");
+    notify("The view is reset to the scene's");
   }
   serve_file_requests();
   state_.reset_view_requested = false;
@@ -213,29 +213,29 @@ void Viewer::keep_history() {
     notify(fmt::format("Undone: {}", history_.undo_name()));
     show_state(history_.undo());
   } else if (state_.redo_requested && history_.can_redo()) {
-    notify(fmt::format("Done again: {}", history_.redo_name()));
+    notify(fmt::format("Redone: {}", history_.redo_name()));
     show_state(history_.redo());
   } else if (steps) {
     notify(state_.undo_requested ? "There is nothing to undo" : "There is nothing to redo");
   }
-  if (steps) fit_film(); // the window may have another size by now
+  if (steps) fit_film(); // the window's size may have changed
   state_.undo_requested = state_.redo_requested = false;
   if (!in_gesture && (state_.edited || state_.undo_name != history_.undo_name())) update_modified();
   state_.undo_name = history_.undo_name();
   state_.redo_name = history_.redo_name();
 }
 
-/// Says whether the picture on the screen is one of something else: of the scene before while the new one is
-/// read in, built and rendered for the first time, or of what was before an edit that takes long or failed.
+/// Labels a picture that is not of the current document: that of the previous scene until the first picture
+/// of the new one, or that of before an edit that takes long or failed.
 void Viewer::describe_picture() {
-  constexpr double kQuietSeconds = 0.5; // what takes less is not reported
+  constexpr double kQuietSeconds = 0.5; // shorter delays are not reported
   state_.picture_of.clear();
   if (!state_.picture) return;
   const std::uint64_t generation = state_.picture->frame->generation;
   const bool of_this_scene = !scene_is_new_ && generation >= scene_generation_;
   if (of_this_scene) shown_title_ = scene_title(state_);
   const bool behind = !of_this_scene || generation < state_.status.restarting;
-  if (!behind || generation != shown_generation_) behind_since_ = now_; // also while they follow a hand
+  if (!behind || generation != shown_generation_) behind_since_ = now_; // also while pictures follow a drag
   shown_generation_ = generation;
   const bool failed = state_.status.phase == SessionPhase::failed;
   if (!behind || (!failed && now_ - behind_since_ < kQuietSeconds)) return;

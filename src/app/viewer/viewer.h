@@ -1,7 +1,6 @@
 #pragma once
-// The window without a window: panels, flight, picture, in any OpenGL 3.3 context. GLFW drives it in the
-// program, the tests drive it through OSMesa; it is the same code. It runs on one thread, the UI's, and never
-// waits for rendering, reading or writing.
+// The user interface (panels, navigation, picture) in any OpenGL 3.3 context. GLFW drives it in the program,
+// OSMesa in the tests. It runs on the UI thread and never waits for rendering, reading or writing.
 
 #include "app/compare/compare_layout.h"
 #include "app/compare/compare_mode.h"
@@ -35,17 +34,17 @@ struct ImGuiContext;
 namespace candela {
 
 struct ViewerOptions {
-  Document document;                             ///< shown first
-  std::string scene_path;                        ///< where it came from; empty: built in
-  std::vector<std::string> warnings;             ///< of reading it
+  Document document;                             ///< the initial document
+  std::string scene_path;                        ///< its path; empty: built in
+  std::vector<std::string> warnings;             ///< from reading it
   FileStamps files;                              ///< LoadedScene::files
   ReadOptions reading;                           ///< of scenes that are opened later
   bool fit_film = true;                          ///< the film follows the window; else the document's size
   int threads = 0;                               ///< for rendering; 0: every core
   std::filesystem::path screenshot_folder = "."; ///< where P saves
   Preferences preferences;
-  std::filesystem::path preferences_path; ///< where they are written; empty: nowhere
-  std::function<void()> wake; ///< called from any thread when there is something to draw; may be empty
+  std::filesystem::path preferences_path; ///< where they are stored; empty: nowhere
+  std::function<void()> wake; ///< called from any thread when there is something new to draw; may be empty
   std::function<void(const Progress&)> on_build; ///< SessionOptions::on_build of the main picture
 };
 
@@ -59,37 +58,37 @@ public:
 
   void handle(Event event);
 
-  /// Handles the events and draws into the current framebuffer; `now` is any monotonic clock in seconds.
-  /// With `may_wait` it draws nothing, and returns false, where it has just submitted an edit whose picture
-  /// will come soon.
+  /// Handles events and draws into the current framebuffer; `now` is any monotonic clock in seconds. With
+  /// `may_wait` it draws nothing and returns false if it has just submitted an edit whose picture will come
+  /// soon.
   bool frame(double now, bool may_wait = false);
 
-  /// What frame() drew is on the screen.
+  /// Reports that the drawn frame is on the screen.
   void shown(WindowFrame frame);
 
   /// Whether frame() would show something new.
   bool wants_redraw() const;
-  /// When the next frame() is due, on its clock, if neither an event nor `wake` comes before.
+  /// The time of the next frame(), on its clock, if neither an event nor `wake` comes earlier.
   double next_frame() const;
-  /// Seconds that may pass until the next frame() if neither an event nor `wake` comes.
+  /// Seconds until the next frame() if neither an event nor `wake` comes.
   double idle_seconds() const;
-  /// Whether events wait that were held back because one frame can show one change of a button at a time.
+  /// Whether events are queued because one frame handles only one change of each button.
   bool has_pending_events() const { return !events_.empty(); }
   InteractionMeter& meter() { return meter_; }
   ivec2 framebuffer() const { return framebuffer_; }
   bool wants_close() const { return wants_close_; }
-  /// Waits until all that was to be saved is on the disk; after the window has gone.
+  /// Waits until everything is saved; called after the window is closed.
   void finish_writing();
   std::string title() const;
 
   const ViewerState& state() const { return state_; }
   const RenderSession& session() const { return *session_; }
   std::span<const WidgetRecord> widgets() const { return ui_.widgets(); }
-  /// Where the picture lies; parts of it may be under the panels or outside of the window.
+  /// The picture's rectangle; parts may be under panels or outside the window.
   PixelRect picture_rect() const;
   const Viewport& viewport() const { return viewport_; }
   const LabPanel& lab() const { return lab_; }
-  /// Where A and B lie, while they are compared.
+  /// The layout of A and B during a comparison.
   ComparePanes compare_panes() const;
   const CompareMode& comparison() const { return compare_; }
   ImGuiContext* imgui() const { return imgui_; }
@@ -108,7 +107,7 @@ private:
   // viewer_shortcuts.cpp
   struct KeyPress {
     Key key;
-    bool control, shift, alt; // as they were then: they may be released in the same frame
+    bool control, shift, alt; // at the time of the press: they may be released in the same frame
   };
   bool asks() const;
   bool single_keys_act(Key key) const;
@@ -119,7 +118,7 @@ private:
 
   // viewer_picture.cpp
   enum class Gesture { none, look, orbit, pan, zoom, region, gizmo };
-  vec3 pivot(); ///< what orbits and zooms are about, world space
+  vec3 pivot(); ///< the centre of orbits and zooms, world space
   std::optional<ScreenProjection> projection() const;
   void set_camera(const Camera& camera);
   void use_mouse_on_picture();
@@ -136,7 +135,7 @@ private:
   void select_at(vec2 mouse);
   void select(const Selection& selection);
   std::optional<Gizmo> present_gizmo();
-  bool begin_gizmo_drag(vec2 mouse); ///< false: there is no handle
+  bool begin_gizmo_drag(vec2 mouse); ///< false: no handle there
   void drag_gizmo(vec2 mouse);
   void cancel_gesture();
 
@@ -153,7 +152,7 @@ private:
   std::optional<int> light_at(vec2 mouse) const;
 
   // viewer_files.cpp
-  /// Reads a scene in the background, or a picture that lights the present one.
+  /// Reads a scene, or a panorama for the current one, in the background.
   void open_scene(const std::vector<std::string>& paths, bool reload);
   void finish_opening(const Dropped& chosen, LoadedScene& loaded, const Bounds3& bounds, bool reload);
   void take_dropped(const std::vector<std::string>& paths);
@@ -192,7 +191,7 @@ private:
   void learn_letters_of_frame();
   void learn_letters_of_scene();
   bool shows_panels() const;
-  /// What the panels leave of the window: they are to the right and below.
+  /// The part of the window without panels, which are to the right and below.
   PixelRect free_region() const;
   void draw_ui();
   void clip_overlays() const;
@@ -205,7 +204,7 @@ private:
   bool awaited_picture_is_there() const;
   bool puts_off_drawing(bool restarted);
   void read_meter();
-  /// Seconds between pictures that only have more samples.
+  /// Seconds between pictures that only add samples.
   double refining_interval() const;
 
   // viewer.cpp
@@ -228,32 +227,32 @@ private:
   ViewerState state_;
 
   std::deque<Event> events_;
-  std::optional<MeterClock::time_point> input_since_; ///< when the oldest event of this frame came
+  std::optional<MeterClock::time_point> input_since_; ///< arrival of this frame's oldest event
   InteractionMeter meter_;
   double meter_read_ = -1, meter_cpu_ = 0;
   double drawn_at_ = -1;
-  bool owes_drawing_ = false; ///< since owed_since_: an edit was handed in instead
+  bool owes_drawing_ = false; ///< since owed_since_: an edit was submitted instead of drawing
   double owed_since_ = -1;
-  double frame_seconds_ = 0.005; ///< that a frame takes, smoothed
-  MeterClock::time_point began_; ///< the frame
-  struct FrameInput {            // what this frame has taken from events_
+  double frame_seconds_ = 0.005; ///< smoothed duration of a frame
+  MeterClock::time_point began_; ///< start of the frame
+  struct FrameInput {            // events taken by this frame
     bool moved = false;
     bool typed = false;
     bool scrolled = false;
     std::set<MouseButton> buttons;
     std::set<Key> keys;
     std::vector<KeyPress> pressed; // not meant for a text field
-    bool ends_keys = false;        // the keyboard may go to another widget after this frame
+    bool ends_keys = false;        // the keyboard focus may change after this frame
   } taken_;
   std::set<Key> held_;    // keys that fly
   bool typing_ = false;   // a text field has the keyboard
-  int field_awaited_ = 0; // frames for which keys wait for a field that is about to take them
+  int field_awaited_ = 0; // frames for which keys are delayed until a new field has the focus
   Gesture gesture_ = Gesture::none;
   int gesture_button_ = 0;
   vec3 gesture_pivot_{0};
   vec2 press_position_{0}, drag_position_{0};
   bool dragged_ = false;
-  double wheel_until_ = 0; // turns of the wheel before this are one edit
+  double wheel_until_ = 0; // wheel events before this time are one edit
 
   SelectionBox selection_box_;
   std::optional<GizmoDrag> gizmo_drag_;
@@ -261,25 +260,25 @@ private:
   CropWindow sent_region_;
 
   EditHistory history_;
-  std::shared_ptr<OpenScene> scene_; // the state has a copy of what panels look at
+  std::shared_ptr<OpenScene> scene_; // the state has copies of the values that panels show
   bool shown_paused_ = false;
   bool scene_is_new_ = false;          // and not submitted yet
-  std::uint64_t scene_generation_ = 0; // that it was submitted as
-  std::string shown_title_;            // of the scene that the picture is of
+  std::uint64_t scene_generation_ = 0; // generation of its submission
+  std::string shown_title_;            // of the picture's scene
   std::uint64_t shown_generation_ = 0; // of the picture
-  double behind_since_ = 0;            // the picture is not the document's, and no newer one came
+  double behind_since_ = 0;            // time since when the picture is out of date
 
-  std::set<char32_t> glyphs_; // that turned up beside those of every atlas
+  std::set<char32_t> glyphs_; // characters in use that not every atlas has
   bool glyphs_are_new_ = false;
 
   ivec2 framebuffer_{1280, 720};
   float content_scale_ = 1;
   float text_zoom_ = 1; // the user's, by Ctrl + and -
   double now_ = 0, first_frame_ = -1, last_fly_ = -1, notice_until_ = 0;
-  int redraws_ = 3; // ImGui settles in a few frames
+  int redraws_ = 3; // ImGui needs a few frames for its layout
   SessionPhase drawn_phase_ = SessionPhase::idle;
   bool wants_close_ = false;
-  std::uint64_t failed_generation_ = 0; // whose error was shown already
+  std::uint64_t failed_generation_ = 0; // generation whose error was shown
   std::uint64_t open_requests_ = 0;
   std::shared_ptr<Progress> reading_ = std::make_shared<Progress>();
   Preferences preferences_, written_preferences_;
@@ -289,7 +288,7 @@ private:
   bool divider_held_ = false, flip_down_ = false;
   double flip_since_ = 0;
 
-  // Last, so that they end first: they call `wake`, and their completions use what stands above.
+  // Last, so that they are destroyed first: they call `wake`, and their completions use the members above.
   std::unique_ptr<RenderSession> session_;
   CompareMode compare_;
   FileWatch watch_;

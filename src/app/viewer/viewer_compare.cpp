@@ -1,4 +1,4 @@
-// The Viewer while two settings are compared.
+// The Viewer during a comparison.
 
 #include "app/viewer/viewer.h"
 
@@ -9,8 +9,8 @@ namespace candela {
 
 namespace {
 
-constexpr float kDividerReach = 8; // pixels at scale 1 from which the divider can be taken
-constexpr double kFlipHold = 0.25; // a key that is held longer shows the other variant only so long
+constexpr float kDividerReach = 8; // pixels at scale 1 within which the divider can be dragged
+constexpr double kFlipHold = 0.25; // a key held longer shows the other variant only while it is held
 constexpr int kRight = 1;          // of ImGui's buttons
 
 } // namespace
@@ -30,7 +30,7 @@ void Viewer::update_compare() {
   if (const RenderSession* other = compare_.other_session()) other_viewport_.show(other->display());
   difference_viewport_.show(compare_.difference());
 
-  // B flips when it is pressed; held, it flips back when it is let go.
+  // Key B flips when it is pressed, and back on release if it was held.
   const bool down = !typing_ && single_keys_act(Key::b) && ImGui::GetIO().KeysDown[static_cast<int>(Key::b)];
   if (down && !flip_down_) compare.flipped = !compare.flipped, flip_since_ = now_;
   if (!down && flip_down_ && now_ - flip_since_ > kFlipHold) compare.flipped = !compare.flipped;
@@ -38,7 +38,7 @@ void Viewer::update_compare() {
 }
 
 void Viewer::serve_compare_requests() {
-  if (gesture_ != Gesture::none) return; // it ends where it began
+  if (gesture_ != Gesture::none) return; // a gesture ends in the variant in which it began
   CompareState& compare = state_.compare;
   const CompareMode::Edited edited{state_.document, session_, history_};
   if (compare.active && compared_scene_ != scene_)
@@ -46,7 +46,7 @@ void Viewer::serve_compare_requests() {
   if (compare.toggle_requested) {
     if (compare.active) {
       compare_.end(compare, edited);
-      notify(fmt::format("Going on with {} alone", variant_letter(compare.edited)));
+      notify(fmt::format("Continuing with {} alone", variant_letter(compare.edited)));
     } else {
       compare_.begin(compare, edited, edit_state());
       compare_.set_region(sent_region_);
@@ -77,7 +77,7 @@ void Viewer::serve_compare_requests() {
   compare.freeze_requested.reset();
 }
 
-/// What is not submitted yet goes to the variant that it was meant for.
+/// Submits pending edits to the variant that they belong to.
 void Viewer::exchange_sides() {
   submit();
   compare_.exchange(state_.compare, {state_.document, session_, history_});
@@ -85,10 +85,10 @@ void Viewer::exchange_sides() {
   other_viewport_.show(compare_.other_session()->display());
   state_.picture = viewport_.shown();
   state_.status = session_->status();
-  scene_generation_ = 0; // both variants show this scene, each by its own count
+  scene_generation_ = 0; // both variants show this scene, with generations of their own
 }
 
-/// Whether the mouse moves the divider or the zoomed pictures, and so nothing else.
+/// Whether the mouse is dragging the divider or the zoomed pictures.
 bool Viewer::use_mouse_on_comparison() {
   CompareState& compare = state_.compare;
   if (!compare.active) return false;

@@ -1,4 +1,4 @@
-// Opening and watching scenes, beside the UI thread. Saving is in viewer_saving.cpp.
+// Opening and watching scenes in the background. Saving is in viewer_saving.cpp.
 
 #include "app/panels/texture_picker.h"
 #include "app/ui/typed_number.h"
@@ -37,14 +37,14 @@ std::string with_remark(const std::string& text, const std::string& remark) {
   return remark.empty() ? text : fmt::format("{}; {}", text, remark);
 }
 
-/// The picture at the path, unless it is none or holds a scene.
+/// The panorama at the path, unless it is not a picture or holds a scene.
 std::shared_ptr<const Panorama> panorama_without_scene(const std::string& path,
                                                        std::shared_ptr<Progress> progress) {
   if (!is_image_name(path)) return nullptr;
   if (const std::string ending = lower_ending(path);
       (ending == ".png" || ending == ".exr") && holds_picture_state(path))
     return nullptr;
-  WarningList corrections(std::move(progress)); // of values that no light has: the user cannot repair it
+  WarningList corrections(std::move(progress)); // of invalid values, which the user cannot correct
   return read_panorama(std::span(&path, 1), corrections);
 }
 
@@ -73,7 +73,7 @@ void Viewer::read_texture(const std::string& path, const TextureTarget& target) 
   reader_.post([this, path, target]() -> TaskThread::Completion {
     try {
       const FileStamps stamps{{path, file_stamp(path)}};
-      WarningList corrections; // as of a panorama
+      WarningList corrections; // ignored, as for a panorama
       auto texture = std::make_shared<const Texture>(
           Texture{fs::path(path).filename().string(), ImageTexture{path, read_texels(path, corrections)}});
       return [this, path, target, texture, stamps] {
@@ -89,13 +89,13 @@ void Viewer::read_texture(const std::string& path, const TextureTarget& target) 
 }
 
 void Viewer::open_scene(const std::vector<std::string>& paths, bool reload) {
-  reading_->cancel(); // the newest wish counts
+  reading_->cancel(); // the newest request replaces it
   reading_ = std::make_shared<Progress>();
   state_.loading_path = paths.front();
   state_.loading_since = now_;
   state_.settle(ErrorCause::open);
   if (!reload && !typing_ && !is_image_name(paths.front()))
-    state_.path_input = paths.front(); // a panorama's name stands in its light
+    state_.path_input = paths.front(); // a panorama's path is shown in its light
   const std::uint64_t request = ++open_requests_;
   state_.reading = true;
   ReadOptions options = options_.reading;
@@ -133,7 +133,7 @@ void Viewer::open_scene(const std::vector<std::string>& paths, bool reload) {
       problem = error.what();
     }
     return [this, problem, request] {
-      if (request != open_requests_) return; // given up, or another was asked for meanwhile
+      if (request != open_requests_) return; // cancelled or replaced by a newer request
       state_.reading = false;
       state_.fail(ErrorCause::open, problem);
     };
@@ -149,7 +149,7 @@ void Viewer::finish_opening(const Dropped& chosen, LoadedScene& loaded, const Bo
   const int material = state_.selected_material, light = state_.selected_light;
   Camera seen = state_.document.scene.camera;
   install_scene(std::move(loaded.document), path, std::move(warnings), bounds, std::move(loaded.files));
-  if (reload) { // what is on the screen stays where it is
+  if (reload) { // a reload keeps the view and the selection
     state_.document.scene.camera = seen;
     state_.selection = checked_selection(state_.document.scene, selection);
     state_.selected_material = material;
@@ -191,37 +191,36 @@ void Viewer::show_state(const EditState& edit, const FileStamps& read) {
   state_.edited = true;
 }
 
-/// Gives up reading; the scene that is shown stays.
+/// Cancels reading; the current scene stays.
 void Viewer::cancel_opening() {
   if (!state_.reading) return;
   reading_->cancel();
   ++open_requests_;
   state_.reading = false;
-  notify(fmt::format("Gave up opening {}", state_.loading_path));
+  notify(fmt::format("Cancelled opening {}", state_.loading_path));
 }
 
-/// Takes back the edits whose geometry is being built; redo has them.
+/// Undoes the edits whose geometry is being built; they can be redone.
 void Viewer::cancel_building() {
   const RenderSession::Built shown = session_->built();
   if (state_.status.phase != SessionPhase::building || !shown.document) return;
-  history_.observe(edit_state(), state_.edited, false); // also what would not be a step yet
+  history_.observe(edit_state(), state_.edited, false); // records unfinished edits, too
   const auto undos = history_.undos_to(shown.document->scene.instances);
   if (undos.value_or(0) == 0) return;
   show_state(history_.undo_by(*undos));
-  notify("Gave up building: redo takes it up again");
+  notify("Cancelled building: redo starts it again");
 }
 
-/// The scene's files, and those of panoramas that were dropped on it since. `known`: as they were when they
-/// were read or written just now.
+/// The scene's files, and those of panoramas dropped on it since. `known`: their stamps when they were just
+/// read or written.
 void Viewer::watch_files(FileStamps known) {
   std::set<std::string> files = source_files(state_.document.scene);
   for (const auto& [file, stamp] : scene_->files) files.insert(file);
-  if (!scene_->path.empty())
-    files.insert(scene_->path); // a link, perhaps, which may be made to lead elsewhere
+  if (!scene_->path.empty()) files.insert(scene_->path); // perhaps a link, whose target may change
   watch_.watch(std::move(files), std::move(known));
 }
 
-/// Panoramas that the scene's files do not have yet: they are replaced where they shine, with all edits kept.
+/// Panoramas that the saved scene does not refer to yet are replaced in their lights; edits are kept.
 void Viewer::read_panoramas_again(const std::set<std::string>& changed) {
   std::set<std::shared_ptr<const Panorama>> old;
   for (const LightDesc& light : state_.document.scene.lights)
@@ -232,7 +231,7 @@ void Viewer::read_panoramas_again(const std::set<std::string>& changed) {
   for (const auto& panorama : old)
     reader_.post([this, panorama]() -> TaskThread::Completion {
       try {
-        WarningList corrections; // as when it was dropped
+        WarningList corrections; // ignored, as when it was dropped
         auto fresh = read_panorama(panorama->sources, corrections);
         return [this, panorama, fresh] {
           for (LightDesc& light : state_.document.scene.lights)
@@ -255,7 +254,7 @@ void Viewer::look_for_changes() {
   };
   if (std::ranges::none_of(changed, is_the_scenes)) {
     read_panoramas_again(changed);
-    // Textures that were dropped on the scene, likewise.
+    // The same for dropped textures.
     for (const auto& texture : state_.document.scene.textures) {
       const ImageTexture* image = texture->image();
       if (image == nullptr || !changed.contains(image->source)) continue;
@@ -278,7 +277,7 @@ void Viewer::look_for_changes() {
   }
   if (scene_->path.empty()) return;
   std::error_code failed;
-  if (!fs::exists(scene_->path, failed)) return; // an editor is between removing and renaming
+  if (!fs::exists(scene_->path, failed)) return; // an editor may be replacing it
   if (state_.modified)
     state_.question = Question::reload;
   else
@@ -286,7 +285,7 @@ void Viewer::look_for_changes() {
 }
 
 void Viewer::serve_file_requests() {
-  if (state_.save_requested && state_.picture) { // before the first one the wish is kept
+  if (state_.save_requested && state_.picture) { // before the first picture the request is kept
     save_shown_picture();
     state_.save_requested = false;
   }
@@ -296,7 +295,7 @@ void Viewer::serve_file_requests() {
   if (state_.save_scene_requested) save_scene();
   if (state_.save_to) save_scene_to(*state_.save_to);
   if (state_.close_requested) {
-    // Asked once: who wants to leave twice means it.
+    // Asked once: a second request quits.
     if (!state_.modified || state_.question == Question::quit)
       wants_close_ = true;
     else
@@ -304,7 +303,7 @@ void Viewer::serve_file_requests() {
   }
   if (state_.save_and_quit_requested) {
     state_.quit_after_save = true;
-    state_.question = Question::none; // it is answered
+    state_.question = Question::none; // the question is answered
     save_scene();
   }
   state_.save_to.reset();

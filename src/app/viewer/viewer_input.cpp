@@ -1,4 +1,5 @@
-// Events to Dear ImGui and to flight; the shortcuts and the mouse on the picture have files of their own.
+// Forwards events to Dear ImGui and to flight. Shortcuts and the mouse on the picture have files of their
+// own.
 
 #include "app/viewer/viewer.h"
 
@@ -11,10 +12,10 @@ namespace candela {
 namespace {
 
 constexpr float kFastFactor = 4;
-/// A turning key takes this many seconds for an angle of the field of view.
+/// Seconds in which a turning key turns the camera by the field of view.
 constexpr float kTurnSeconds = 1.0f;
-constexpr double kFirstFlightStep = 1 / 60.0; // the time before a key went down is not flown
-constexpr double kLongestFlightStep = 0.1;    // after a stall the camera must not be elsewhere
+constexpr double kFirstFlightStep = 1 / 60.0; // at most this for the first frame of a key
+constexpr double kLongestFlightStep = 0.1;    // limits the step after a stall
 
 template <class... Functions>
 struct Overloaded : Functions... {
@@ -74,10 +75,10 @@ void Viewer::map_keys() {
 }
 
 /// Dear ImGui 1.86 sees only the state at the beginning of a frame. So a frame takes at most one change of
-/// each button and key, none of a button after the mouse moved (the item below must have seen the mouse
-/// first), and no movement after a button: a fast click is a click, a fast drag begins where it began. Keys
-/// come after what may give the keyboard to somebody else: a click, a command, a field that is about to
-/// appear. Who types on at once must not have the first letters of a name taken for shortcuts.
+/// each button and key, no button change after a mouse movement (the item below must see the mouse first),
+/// and no movement after a button change. Fast clicks and drags are thus handled at the right positions. Keys
+/// are delayed until the frame after a click, a command or a new field, which may change the keyboard focus;
+/// otherwise the first letters of a name could act as shortcuts.
 bool Viewer::fits_into_frame(const Event& event) const {
   return std::visit(
       Overloaded{

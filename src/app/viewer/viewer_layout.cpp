@@ -1,4 +1,4 @@
-// Where the picture and the panels lie, and how they get onto the screen.
+// Layout and drawing of the picture and the panels.
 
 #include "app/figures/typeface.h"
 #include "app/ui/ui_style.h"
@@ -13,10 +13,10 @@ namespace {
 constexpr float kColumnWidth = 352; // at scale 1, like all lengths here
 constexpr float kStatusHeight = 24;
 constexpr float kToolHeight = 66;
-/// Windows smaller than this show the picture alone: no panel would be readable in them.
+/// Smaller windows show only the picture: panels would be unreadable.
 constexpr float kMinPanelWindowWidth = 420, kMinPanelWindowHeight = 160;
-/// A window on a dense monitor may be small all the same: the panels then take no more than they would of a
-/// window of this size.
+/// On a monitor with a high scale, the panels take at most the share of the window that they take of a window
+/// of this size.
 constexpr float kScaleReferenceWidth = 960, kScaleReferenceHeight = 540;
 
 bool covers(const PixelRect& a, const PixelRect& b) {
@@ -29,7 +29,8 @@ void Viewer::update_scale() {
   const float room = std::min(static_cast<float>(framebuffer_.x) / kScaleReferenceWidth,
                               static_cast<float>(framebuffer_.y) / kScaleReferenceHeight);
   const float wanted = std::min(content_scale_, std::max(room, 1.0f)) * text_zoom_;
-  const float scale = std::clamp(std::round(wanted * 8) / 8, 0.5f, 4.0f); // few steps: each builds an atlas
+  const float scale =
+      std::clamp(std::round(wanted * 8) / 8, 0.5f, 4.0f); // few steps, since each builds a font atlas
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   if (scale == state_.scale && atlas.IsBuilt() && !glyphs_are_new_) return;
   glyphs_are_new_ = false;
@@ -40,10 +41,10 @@ void Viewer::update_scale() {
   apply_style(scale);
 }
 
-/// An atlas of every letter that there is would take hundreds of megabytes: it gets those that turn up.
+/// An atlas of all characters would take hundreds of megabytes: characters are added when they appear.
 void Viewer::learn_letter(char32_t letter) {
   constexpr std::size_t kMost = 4000;
-  constexpr char32_t kLastOfImGui = 0xffff; // it knows no others
+  constexpr char32_t kLastOfImGui = 0xffff; // it supports no others
   if (!is_common_glyph(letter) && letter <= kLastOfImGui && glyphs_.size() < kMost)
     glyphs_are_new_ |= glyphs_.insert(letter).second;
 }
@@ -53,7 +54,7 @@ void Viewer::learn_letters(std::string_view text) {
   for (char32_t letter : code_points(text)) learn_letter(letter);
 }
 
-/// Of what is typed, told and may change in any frame.
+/// Texts that may change in any frame: typed ones and messages.
 void Viewer::learn_letters_of_frame() {
   for (const std::string* text :
        {&state_.error, &state_.notice, &state_.loading_path, &state_.path_input, &state_.panorama_input,
@@ -104,8 +105,8 @@ PixelRect Viewer::single_picture_rect() const {
                                     : glm::max(framebuffer_, ivec2(1));
   if (!state_.fit_film)
     return letterbox(free_region(), view_shape(film, state_.document.scene.camera.aspect));
-  // The film has the window's size, so that no panel's coming and going restarts it; its middle is kept in
-  // the middle of what the panels leave free. While the window is being resized the old picture fills in.
+  // The film has the window's size, so that showing and hiding panels does not restart it; its centre is in
+  // the centre of the free region. While the window is resized, the old picture is scaled.
   return letterbox(centered(free_region(), glm::max(framebuffer_, ivec2(1))), film);
 }
 
@@ -121,7 +122,7 @@ void Viewer::draw_ui() {
   }
   if (state_.compare.active)
     compare_overlay(ui_, state_.compare, compare_panes(), compare_.difference() != nullptr);
-  // What tells about the picture begins where neither the lab nor a message covers it.
+  // Overlays begin where neither the lab nor a message covers the picture.
   const vec2 clear(state_.lab_visible ? LabPanel::width(state_.scale, free_size.x) : 0, state_.strips_bottom);
   inspector_.draw(ui_, state_, picture_rect(), free, clear, now_);
   picture_label(ui_, state_, clear);
@@ -137,8 +138,7 @@ void Viewer::draw_ui() {
                   bottom_center);
 }
 
-/// The list that is drawn over the picture, and under the panels, ends where those begin: they have no
-/// background of their own.
+/// Clips overlays of the picture where the panels begin, since panels have no background of their own.
 void Viewer::clip_overlays() const {
   const PixelRect free = free_region();
   ImGui::GetBackgroundDrawList()->PushClipRect(
@@ -146,9 +146,9 @@ void Viewer::clip_overlays() const {
       {static_cast<float>(free.x + free.width), static_cast<float>(free.y + free.height)});
 }
 
-/// Without a GPU every pixel counts. To clear the whole framebuffer costs next to nothing; so that makes the
-/// ground of the panels, which costs as much as the picture where it is blended, and what surrounds the
-/// picture is only drawn where something does. Under panels there is no picture.
+/// Without a GPU, fill rate is limited. Clearing the framebuffer is nearly free and draws the panels'
+/// background, where blending would cost as much as the picture. The area around the picture is drawn only if
+/// there is one, and the picture is not drawn under panels.
 void Viewer::draw_window() {
   const PixelRect free = free_region(), picture = picture_rect();
   gl_.Viewport(0, 0, framebuffer_.x, framebuffer_.y);

@@ -1,4 +1,4 @@
-// What is drawn over the picture: the selection's box, the lights, the gizmo, the region.
+// Overlays of the picture: the selection's box, lights, the gizmo, the region.
 
 #include "app/viewer/viewer.h"
 
@@ -38,7 +38,7 @@ void draw_light(ImDrawList& list, vec2 at, bool selected, float unit) {
 
 } // namespace
 
-/// Hiding the panels leaves the picture alone.
+/// Hidden panels also hide the overlays.
 bool Viewer::shows_overlays() const { return state_.overlays_visible && shows_panels(); }
 
 void Viewer::draw_overlay() {

@@ -1,5 +1,4 @@
-// When the window is drawn: soon for a hand, seldom while a picture only gets less noisy, and what that comes
-// to.
+// Frame pacing: soon after input, seldom while a picture only gets less noisy; and its statistics.
 
 #include "app/viewer/viewer.h"
 
@@ -9,19 +8,19 @@ namespace candela {
 
 namespace {
 
-// Without a GPU every drawn frame is taken from the renderer; 30 a second look smooth, input may have 60.
+// Without a GPU, drawing competes with the renderer: 30 frames a second look smooth, and input gets up to 60.
 constexpr double kPictureInterval = 1 / 30.0;
 constexpr double kInputInterval = 1 / 60.0;
 constexpr double kHandInterval = 1 / 240.0;
-/// A picture that a hand waits for is drawn as soon as it is there; this much leaves the renderer time for
-/// the next one. A flight's picture came after 25 ms with kInputInterval, of which it waited 6 for that.
+/// The least time between pictures of inputs: it leaves the renderer time for the next one. With
+/// kInputInterval, pictures of a flight took 25 ms, of which 6 ms were waiting.
 constexpr double kAwaitedInterval = 1 / 100.0;
-/// While a picture is awaited, drawing the old one would only delay it.
+/// While a picture is awaited, drawing the old one again would delay it.
 constexpr double kWaitingInterval = 1 / 15.0;
-/// Of the wall time, to draw a picture that only becomes less noisy.
+/// Largest share of the wall time for drawing pictures that only become less noisy.
 constexpr double kWindowShare = 0.06;
 constexpr double kSlowestRefining = 0.2;
-constexpr double kBusyRedrawSeconds = 0.25; // running numbers, blinking text cursors
+constexpr double kBusyRedrawSeconds = 0.25; // for changing numbers and blinking text cursors
 constexpr double kIdleRedrawSeconds = 5;
 
 bool is_busy(SessionPhase phase) {
@@ -30,7 +29,7 @@ bool is_busy(SessionPhase phase) {
 
 } // namespace
 
-/// The picture of an input is only moments away, and drawing would take the cores from it.
+/// An input's picture is due soon, and drawing would take cores from it.
 bool Viewer::puts_off_drawing(bool restarted) {
   if (!owes_drawing_) owed_since_ = now_;
   return (restarted || owes_drawing_) && now_ < owed_since_ + kWaitingInterval;
@@ -55,7 +54,7 @@ bool Viewer::wants_redraw() const {
          session_->status().phase != drawn_phase_ || comparison_wants_redraw();
 }
 
-/// Once in a while: sorting costs, and numbers that flicker cannot be read.
+/// Updated seldom: sorting takes time, and flickering numbers cannot be read.
 void Viewer::read_meter() {
   constexpr double kEvery = 1;
   const double seconds = now_ - meter_read_;
@@ -77,9 +76,9 @@ bool Viewer::awaited_picture_is_there() const {
 double Viewer::next_frame() const {
   if (!wants_redraw()) return now_ + idle_seconds();
   double due = now_ + refining_interval();
-  if (awaited_picture_is_there()) due = drawn_at_ + kAwaitedInterval; // perhaps at once
+  if (awaited_picture_is_there()) due = drawn_at_ + kAwaitedInterval; // may be in the past
   if (has_pending_events() || fly_command().any()) {
-    // While the user moves the camera a frame without a new picture only hands in, and costs next to nothing.
+    // While the user moves the camera, a frame without a new picture only submits the edit, at little cost.
     const bool only_hands_in = gesture_ != Gesture::none && !awaited_picture_is_there();
     due = std::min(due, now_ + (only_hands_in ? kHandInterval : kInputInterval));
   }

@@ -19,7 +19,7 @@ constexpr float kZoomStep = 0.85f;      // a notch of the wheel
 constexpr float kZoomPerPixel = 1.005f; // of a drag, at scale 1
 constexpr float kClickSlack = 4;        // pixels at scale 1 that a click may move
 constexpr double kWheelGesture = 0.5;   // seconds within which turns of the wheel are one edit
-constexpr float kNearestZoom = 1e-4f;   // of what natural_speed crosses in a second
+constexpr float kNearestZoom = 1e-4f;   // of the distance flown in a second at natural_speed
 
 constexpr int kLeft = 0, kMiddle = 2; // of ImGui's buttons
 
@@ -74,7 +74,7 @@ void Viewer::use_mouse_on_picture() {
 
 void Viewer::begin_gesture(int button, vec2 mouse) {
   const ImGuiIO& io = ImGui::GetIO();
-  const bool around = button == kMiddle || io.KeyAlt; // Alt stands in for a missing middle button
+  const bool around = button == kMiddle || io.KeyAlt; // Alt replaces a missing middle button
   if (button == kLeft && state_.region_armed)
     gesture_ = Gesture::region;
   else if (!around && begin_gizmo_drag(mouse))
@@ -103,7 +103,7 @@ void Viewer::drag(vec2 moved, vec2 mouse) {
     set_camera(turned_camera(camera, -turn.x, -turn.y));
     break;
   }
-  case Gesture::orbit: { // the picture's height is half a turn
+  case Gesture::orbit: { // the picture's height corresponds to half a turn
     const vec2 turn = kPi / static_cast<float>(std::max(picture.height, 1)) * moved;
     set_camera(orbited_camera(camera, gesture_pivot_, -turn.x, -turn.y));
     break;
@@ -124,8 +124,7 @@ void Viewer::zoom(float factor) {
   set_camera(zoomed_camera(state_.document.scene.camera, about, factor, kNearestZoom * state_.natural_speed));
 }
 
-/// Zooms; while a key flies or the mouse looks around, it sets the speed of flight instead, as in games and
-/// their editors.
+/// Zooms; during flight or mouse look it sets the speed of flight instead, as in game editors.
 void Viewer::turn_wheel(float notches) {
   if (!fly_command().any() && gesture_ != Gesture::look) {
     if (camera_problem(state_.document.scene.camera).empty()) zoom(std::pow(kZoomStep, notches));
@@ -139,10 +138,10 @@ void Viewer::turn_wheel(float notches) {
 void Viewer::focus_at(vec2 screen_position) {
   const auto screen = projection();
   const auto film = screen ? screen->film_position(screen_position) : std::nullopt;
-  if (!film) return; // on the frame around it
+  if (!film) return; // outside the film
   const std::optional<Pick> found = session_->pick(*film);
   if (!found || !(found->view_depth > 0)) {
-    notify("There is nothing to focus on there");
+    notify("No surface to focus on there");
     return;
   }
   const auto& materials = state_.document.scene.materials;
@@ -157,7 +156,7 @@ void Viewer::focus_at(vec2 screen_position) {
   camera.focus_distance = found->view_depth;
   notify(fmt::format("Focus at {}{}{}", scene_units(found->view_depth), on,
                      camera.aperture_radius > 0 ? ""
-                                                : "; a pinhole shows everything sharp: raise Camera, "
+                                                : "; a pinhole has no blur: raise Camera, "
                                                   "aperture radius"));
 }
 
@@ -168,7 +167,7 @@ void Viewer::end_region(vec2 mouse) {
   const vec2 a = glm::clamp((press_position_ - origin) / size, 0.0f, 1.0f);
   const vec2 b = glm::clamp((mouse - origin) / size, 0.0f, 1.0f);
   const PictureRegion region{glm::min(a, b), glm::max(a, b)};
-  state_.region.reset(); // a click, or a drag beside the picture, gives the whole back
+  state_.region.reset(); // a click, or a drag outside the picture, renders the whole picture again
   if (dragged_ && region.lo.x < region.hi.x && region.lo.y < region.hi.y) state_.region = region;
 }
 

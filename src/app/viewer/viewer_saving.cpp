@@ -1,4 +1,4 @@
-// Saving scenes and pictures, beside the UI thread.
+// Saving scenes and pictures in the background.
 
 #include "app/viewer/picture_saver.h"
 #include "app/viewer/viewer.h"
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// That it takes at most until a field that appears has the keyboard.
+/// Frames until a new field has the keyboard focus, at most.
 constexpr int kFramesToFocus = 6;
 
 bool same_file(const std::string& a, const std::string& b) {
@@ -33,7 +33,7 @@ bool Viewer::is_bundled(const std::string& path) const {
                              [&](const fs::path& scene) { return same_file(scene.string(), path); });
 }
 
-/// Into the scene's own file if it is one of ours to write; otherwise asks where to.
+/// Saves to the scene's file if it is a writable .json file; otherwise asks for a path.
 void Viewer::save_scene() {
   const std::string& path = scene_->path;
   const bool elsewhere = std::exchange(state_.save_as_requested, false);
@@ -42,8 +42,8 @@ void Viewer::save_scene() {
     return;
   }
   const std::string stem = path.empty() ? "scene" : fs::path(path).stem().string();
-  // Beside what it came from, so that meshes are named relative to it; examples are copied to where one
-  // works.
+  // Suggests the folder of the source, so that meshes are named relative to it; for examples, the working
+  // folder.
   const fs::path folder = path.empty() || is_bundled(path) ? fs::path() : fs::path(path).parent_path();
   state_.save_path = (folder / (stem + ".json")).string();
   ask_for_path();
@@ -57,7 +57,7 @@ void Viewer::ask_for_path() {
 void Viewer::save_scene_to(std::string path) {
   std::error_code failed;
   if (const auto absolute = path.rfind("//"); absolute != std::string::npos)
-    path.erase(0, absolute + 1); // typed behind the folder that was offered
+    path.erase(0, absolute + 1); // an absolute path was typed after the suggested folder
   if (!fs::path(path).has_extension() && fs::path(path).has_filename()) path += ".json"; // what else
   if (fs::path(path).extension() != ".json") {
     state_.fail(ErrorCause::save,
@@ -74,7 +74,7 @@ void Viewer::save_scene_to(std::string path) {
   state_.question = Question::none;
   const bool was_asked = std::exchange(state_.save_as_visible, false);
   Document document = state_.document;
-  if (state_.fit_film) { // the window's size is not the scene's
+  if (state_.fit_film) { // the window's size is not saved
     document.settings.film.width = state_.home.settings.film.width;
     document.settings.film.height = state_.home.settings.film.height;
   }
@@ -103,7 +103,7 @@ void Viewer::save_scene_to(std::string path) {
           return [this, was_asked, problem = std::string(error.what())] {
             state_.fail(ErrorCause::save, problem);
             state_.quit_after_save = false;
-            if (was_asked) ask_for_path(); // for a better one
+            if (was_asked) ask_for_path(); // for another path
           };
         }
       });

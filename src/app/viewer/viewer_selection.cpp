@@ -1,4 +1,4 @@
-// Selecting by the mouse, and moving what is selected.
+// Selecting with the mouse, and moving the selection.
 
 #include "app/viewer/viewer.h"
 
@@ -27,7 +27,7 @@ void Viewer::select_at(vec2 mouse) {
   }
   const auto screen = projection();
   const auto film = screen ? screen->film_position(mouse) : std::nullopt;
-  if (!film) return; // on the frame around it
+  if (!film) return; // outside the film
   const std::optional<Pick> found = session_->pick(*film);
   if (!found) {
     select({});
@@ -54,7 +54,7 @@ std::optional<Gizmo> Viewer::present_gizmo() {
   if (state_.tool == Tool::select) return std::nullopt;
   const Selection& selected = state_.selection;
   const bool light = selected.kind == Selection::Kind::light;
-  if (light && state_.tool != Tool::move) return std::nullopt; // a point turns into nothing new
+  if (light && state_.tool != Tool::move) return std::nullopt; // rotating or scaling a point has no effect
   const auto corners = selection_box_.corners(state_.document.scene, selected);
   if (!corners) return std::nullopt;
   Gizmo gizmo{state_.tool, bounds_of(*corners).center(), mat3(1), state_.scale};
@@ -94,7 +94,7 @@ void Viewer::drag_gizmo(vec2 mouse) {
   state_.edited = true;
 }
 
-/// Takes back what the drag in hand did.
+/// Reverts the current drag.
 void Viewer::cancel_gesture() {
   if (gesture_ == Gesture::gizmo) {
     state_.document.scene.instances = before_drag_.scene.instances;

@@ -1,4 +1,4 @@
-// What the keys do, but for flight.
+// Keyboard shortcuts, except flight.
 
 #include "app/viewer/viewer.h"
 
@@ -24,12 +24,12 @@ std::optional<AxisView> axis_view(Key key, bool control) {
 
 } // namespace
 
-/// Whether something waits for an answer: a question, a field to fill, a list or a picker that is open.
+/// Whether an answer is expected: a question, a path field, an open list or picker.
 bool Viewer::asks() const {
   return state_.question != Question::none || state_.save_as_visible || !imgui_->OpenPopupStack.empty();
 }
 
-/// Keys that are pressed alone belong to what asks, and to the lab while that lies over the view.
+/// Keys without modifiers belong to a question, or to the lab while it covers the view.
 bool Viewer::single_keys_act(Key key) const {
   if (key == Key::escape) return true;
   if (asks()) return false;
@@ -101,7 +101,7 @@ void Viewer::run_plain_shortcut(Key key) {
   }
 }
 
-/// Ends the innermost thing that goes on.
+/// Cancels the innermost activity.
 void Viewer::escape() {
   if (gesture_ != Gesture::none)
     cancel_gesture();
@@ -110,7 +110,7 @@ void Viewer::escape() {
   else if (state_.reading)
     state_.cancel_requested = true;
   else if (state_.may_stop_building && state_.now - state_.building_since > 1)
-    state_.cancel_requested = true; // what is being built takes long: back to what was
+    state_.cancel_requested = true; // cancels building, and returns to the state before
   else if (state_.question != Question::none)
     state_.question = Question::none;
   else if (state_.save_as_visible)

@@ -9,12 +9,12 @@ namespace candela {
 
 namespace {
 
-constexpr double kFullRate = 60; // frames a second that are dropped while one is late
+constexpr double kFullRate = 60; // rate at which missed frames are counted
 
 } // namespace
 
 void run_frames(Viewer& viewer, const FrameHost& host, ViewerDriver* driver) {
-  double wanted_at = -1; // since when there is something new to draw; < 0: there is nothing
+  double wanted_at = -1; // time since when there is something to draw; < 0: nothing
   while (!viewer.wants_close()) {
     host.wait(0);
     double asked_again = std::numeric_limits<double>::infinity();
@@ -25,11 +25,11 @@ void run_frames(Viewer& viewer, const FrameHost& host, ViewerDriver* driver) {
     else if (wanted_at < 0)
       wanted_at = now;
     const double due = viewer.next_frame();
-    if (now < due) { // an event, a new picture or the driver ends it early, and is looked at again
+    if (now < due) { // events, new pictures and the driver end the wait early
       host.wait(std::min(due - now, asked_again));
       continue;
     }
-    // The delay, less the time without anything to draw.
+    // The delay without the time in which there was nothing to draw.
     const double late = wanted_at < 0 ? 0 : now - std::max(due, wanted_at);
     wanted_at = -1;
     if (!viewer.frame(now, true)) continue;

@@ -1,6 +1,6 @@
 #pragma once
-// When the viewer is drawn: at once after an input, seldom where only numbers and samples grow, not at all
-// where nothing changes. The window on a screen and the one in memory run the same loop.
+// The loop that draws the viewer: at once after input, seldom while only numbers and samples change, not at
+// all without changes. The window on a screen and the off-screen one share it.
 
 #include <functional>
 
@@ -8,21 +8,20 @@ namespace candela {
 
 class Viewer;
 
-/// A screen, or memory.
+/// A window on a screen or in memory.
 struct FrameHost {
   std::function<double()> now; ///< seconds, monotonic
-  /// Takes the events that are there; with none it waits for one, or for the viewer's `wake`, at most so
-  /// long.
+  /// Handles pending events; without any, waits for one or for the viewer's `wake`, at most so many seconds.
   std::function<void(double)> wait;
-  std::function<void()> show; ///< what was drawn comes onto the screen
+  std::function<void()> show; ///< presents the drawn frame
 };
 
-/// Drives a viewer instead of a person, on the UI's thread.
+/// Sends input to a viewer in place of a user, on the UI thread.
 class ViewerDriver {
 public:
   virtual ~ViewerDriver() = default;
-  /// Between frames: may send events to the viewer. Returns the seconds after which it is to be called again
-  /// at the latest; it is called after every frame. Negative: it is done, and the loop ends.
+  /// Called after every frame; may send events to the viewer. Returns the seconds until the next call at the
+  /// latest. Negative: the driver is done, and the loop ends.
   virtual double next(Viewer& viewer) = 0;
 };
 

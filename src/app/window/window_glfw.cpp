@@ -22,7 +22,7 @@ std::string glfw_problem() {
   return text != nullptr ? text : "unknown cause";
 }
 
-/// glfwInit() and glfwTerminate(); nothing of GLFW is alive without one.
+/// Owns glfwInit() and glfwTerminate(); must outlive all GLFW objects.
 class Glfw {
 public:
   Glfw() {
@@ -36,7 +36,7 @@ public:
   Glfw& operator=(const Glfw&) = delete;
 };
 
-/// The n-th key after `first`: letters and digits come in their order in both enumerations.
+/// The n-th key after `first`: letters and digits have the same order in both enumerations.
 Key key_after(Key first, int n) { return static_cast<Key>(static_cast<int>(first) + n); }
 
 Key key_of(int glfw_key) {
@@ -84,7 +84,7 @@ Key key_of(int glfw_key) {
   return Key::none;
 }
 
-/// Letters are those printed on the keyboard, in any layout.
+/// Letters are those of the keyboard layout.
 Key layout_key(int glfw_key, int scancode) {
   if (glfw_key >= GLFW_KEY_A && glfw_key <= GLFW_KEY_Z) {
     const char* name = glfwGetKeyName(glfw_key, scancode);
@@ -104,7 +104,7 @@ public:
     connect();
   }
   ~Window() {
-    viewer_.reset(); // its GL objects go while the context is there
+    viewer_.reset(); // its GL objects are destroyed while the context exists
     for (GLFWcursor* cursor : cursors_)
       if (cursor != nullptr) glfwDestroyCursor(cursor);
     glfwDestroyWindow(window_);
@@ -113,7 +113,7 @@ public:
   Window& operator=(const Window&) = delete;
 
   void run(ViewerDriver* driver);
-  /// Takes the window off the screen, and waits for nothing but what is being saved.
+  /// Hides the window and waits only for pending saves.
   void leave();
 
 private:
@@ -133,8 +133,8 @@ private:
   std::string title_;
 };
 
-/// What the desktop says, or, where it says nothing, what the monitor's height makes likely: text of 15
-/// pixels is tiny on 2160 lines.
+/// The desktop's scale or, if that is 1, an estimate from the monitor's height: text of 15 pixels is tiny on
+/// 2160 lines.
 float monitor_scale(GLFWwindow* window) {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window, &x, &y);
@@ -151,13 +151,13 @@ void Window::open(ivec2 size) {
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
-  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE); // until it has its size
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE); // hidden until it has its size
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "candela");
   window_ = glfwCreateWindow(size.x, size.y, "Candela", nullptr, nullptr);
   if (window_ == nullptr)
     throw Error(
         ExitCode::display,
-        fmt::format("window: OpenGL 3.3 is not to be had ({}): install a driver (libgl1-mesa-dri draws "
+        fmt::format("window: OpenGL 3.3 is not available ({}): install a driver (libgl1-mesa-dri draws "
                     "without a GPU), or use `candela render`",
                     glfw_problem()));
   int x = 0, y = 0, width = 0, height = 0;
@@ -172,7 +172,7 @@ void Window::open(ivec2 size) {
   }
   glfwShowWindow(window_);
   glfwMakeContextCurrent(window_);
-  glfwSwapInterval(0); // the loop below paces itself; waiting for a hidden monitor would stop the window
+  glfwSwapInterval(0); // the loop has its own pacing; vertical sync of a hidden window could block
 }
 
 vec2 Window::framebuffer_position(double x, double y) const {
@@ -205,7 +205,7 @@ void Window::connect() {
     of(w).viewer_->handle(MouseScrolled{{x, y}});
   });
   glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int) {
-    if (action == GLFW_REPEAT) return; // text fields repeat by themselves
+    if (action == GLFW_REPEAT) return; // text fields repeat keys themselves
     of(w).viewer_->handle(KeyChanged{layout_key(key, scancode), action == GLFW_PRESS});
   });
   glfwSetCharCallback(window_,
@@ -213,7 +213,7 @@ void Window::connect() {
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { of(w).send_size(); });
   glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { of(w).send_size(); });
   glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) {
-    glfwSetWindowShouldClose(w, GLFW_FALSE); // the viewer may have something to ask before
+    glfwSetWindowShouldClose(w, GLFW_FALSE); // the viewer may ask a question first
     of(w).viewer_->handle(CloseRequested{});
   });
   glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
@@ -276,12 +276,12 @@ void Window::show() {
 bool display_available() { return glfwInit() == GLFW_TRUE; }
 
 void run_window(ViewerOptions options, ViewerDriver* driver) {
-  constexpr double kSecondsToEnd = 1; // for what ends of itself: passes, reading and building look often
+  constexpr double kSecondsToEnd = 1; // passes, reading and building check for cancellation often
   std::optional<ProcessDeadline> deadline;
   Window window(std::move(options));
   window.run(driver);
   window.leave();
-  if (driver == nullptr) deadline.emplace(kSecondsToEnd); // a driver has results to tell yet
+  if (driver == nullptr) deadline.emplace(kSecondsToEnd); // a driver still has to report results
 }
 
 } // namespace candela

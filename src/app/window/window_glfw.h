@@ -1,13 +1,13 @@
 #pragma once
-// The window on the screen: GLFW's callbacks made into events for the Viewer.
+// The window on the screen: converts GLFW's callbacks to events for the Viewer.
 
 #include "app/viewer/viewer.h"
 #include "app/window/frame_loop.h"
 
 namespace candela {
 
-/// Whether there is a display to open a window on. The connection to it is kept for the window: a server such
-/// as Xvfb starts anew, and refuses for a moment, when its last client leaves.
+/// Whether there is a display to open a window on. The connection is kept for the window, because a server
+/// such as Xvfb restarts, and briefly refuses connections, when its last client leaves.
 bool display_available();
 
 /// Opens the window and returns when it is closed, or when `driver` (may be null) is done. An Error with

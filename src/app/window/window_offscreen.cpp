@@ -9,7 +9,7 @@ namespace candela {
 
 namespace {
 
-/// What glfwWaitEventsTimeout() and glfwPostEmptyEvent() are to a window.
+/// The counterpart of glfwWaitEventsTimeout() and glfwPostEmptyEvent().
 class Bell {
 public:
   void ring() {

@@ -1,5 +1,5 @@
 #pragma once
-// The window where there is no display: the same viewer and the same loop, drawn into memory.
+// The window without a display: the same viewer and loop, drawn into memory.
 
 #include "app/viewer/viewer.h"
 #include "app/window/frame_loop.h"

@@ -15,7 +15,7 @@ void SceneBuilder::expect_file(const std::string& reference, const std::string& 
   if (!expected_.insert(reference).second) return;
   try {
     if (auto file = policy_.find(reference, folder, {}, "")) warnings_.expect_file(file->canonical);
-  } catch (const Error&) {} // its reader says it, and where
+  } catch (const Error&) {} // reported when the file is read
 }
 
 MeshFile& SceneBuilder::mesh_file(const FoundFile& file, const std::string& name, const Location& where,
@@ -60,7 +60,7 @@ int SceneBuilder::texture_or_none(const FoundFile& file, const Location& where) 
 
 std::shared_ptr<const Texels> SceneBuilder::texels_of(const std::string& path) {
   auto texels = read_texels(path, warnings_);
-  for (const auto& texture : scene_.textures) // another file may show the same
+  for (const auto& texture : scene_.textures) // another file may have the same pixels
     if (const auto* image = texture->image(); image != nullptr && *image->texels == *texels)
       return image->texels;
   return texels;
@@ -141,8 +141,8 @@ int SceneBuilder::default_material() {
 int SceneBuilder::missing_material(const MeshFile& file, std::size_t slot, const Location& where) {
   const std::string& name = file.mesh->slot_names[slot];
   constexpr std::size_t kLongestName = 100;
-  warnings_.add(where, name.empty() ? "faces without a material: a grey is taken"
-                                    : fmt::format("there is no material '{}': a grey is taken",
+  warnings_.add(where, name.empty() ? "faces without a material: a grey one is used"
+                                    : fmt::format("there is no material '{}': a grey one is used",
                                                   name.substr(0, kLongestName)));
   return default_material();
 }
@@ -152,7 +152,7 @@ void SceneBuilder::place(Instance& instance, const glm::dmat4& world_from_object
   instance.world_from_object =
       mat4(mesh ? glm::translate(world_from_object, (*mesh)->origin) : world_from_object);
   if (!mesh) return;
-  // So little of a mesh cannot be seen.
+  // Errors below this part of a mesh's size are invisible.
   constexpr double kInvisible = 0x1p-13;
   const Bounds3 bounds = instance_bounds({instance});
   const vec3 most = glm::max(glm::abs(bounds.lo), glm::abs(bounds.hi));

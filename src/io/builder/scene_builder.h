@@ -1,5 +1,5 @@
 #pragma once
-// What all scene readers do alike: files are read once and shared, materials of OBJ files are imported.
+// Shared by all scene readers: files are read once, and materials of OBJ files are imported.
 
 #include "io/obj/obj_reader.h"
 #include "scene/scene_desc.h"
@@ -29,22 +29,23 @@ public:
   const PathPolicy& policy() const { return policy_; }
   WarningList& warnings() { return warnings_; }
 
-  /// Counts a file, named in one of `folder`, that will be read. What is wrong with it is said then.
+  /// Announces a file that will be read, named in a file of `folder`, for the progress. Errors are reported
+  /// when it is read.
   void expect_file(const std::string& reference, const std::string& folder);
 
-  /// The mesh of a file (OBJ by its ending) under a name, "" for the file's own. The same file is read once,
-  /// and one name of it is one Mesh.
+  /// The mesh of a file (OBJ by its ending) under a name; "": the file's own name. A file is read once and
+  /// has one Mesh per name.
   MeshFile& mesh_file(const FoundFile& file, const std::string& name, const Location& where,
                       std::string_view element);
 
   /// Index of the picture in SceneDesc::textures; the same file is one texture.
   int texture(const FoundFile& file);
-  /// The same for one that an exporter named at `where`: -1, with a warning, if it cannot be read.
+  /// The same for a picture that an exporter named at `where`: -1, with a warning, if it cannot be read.
   int texture_or_none(const FoundFile& file, const Location& where);
-  /// Of a picture at a new index in any case, under a name; "" for the file's own. What shows the same as a
-  /// texture that is there shares its texels.
+  /// Adds a picture at a new index, under a name; "": the file's own name. It shares the texels of an
+  /// existing texture with the same ones.
   int append_texture(const FoundFile& file, const std::string& name = "");
-  /// Of one that was not read here; `file`, which may be null, is where it comes from.
+  /// Adds a texture that was not read here; `file` is its source and may be null.
   int append_texture(std::shared_ptr<const Texture> texture, const FoundFile* file = nullptr);
 
   /// The panorama of a file, or of six; the same files are one.
@@ -52,16 +53,16 @@ public:
 
   int add_material(Material material);
 
-  /// Puts an instance, which has its shape, where world_from_object takes the coordinates of the shape's file
-  /// (Mesh::origin). A mesh whose shape floats cannot hold there is a warning that tells the loss.
+  /// Sets the transform of an instance, which has its shape, such that world_from_object applies to the
+  /// coordinates of the shape's file (Mesh::origin). Warns if floats cannot represent the mesh's shape there.
   void place(Instance& instance, const glm::dmat4& world_from_object, const Location& where);
 
-  /// The MTL's material of a slot, imported as "mesh/slot" when first asked for; -1 where the MTL has none.
+  /// The MTL's material of a slot, imported as "mesh/slot" on first use; -1 if the MTL has none.
   int imported_material(MeshFile& file, std::size_t slot);
 
-  /// A grey one for what has no material, made when first asked for.
+  /// The index of a grey material for objects without one, created on first use.
   int default_material();
-  /// The same for a slot that ought to have one, with a warning.
+  /// The same for a slot whose material is missing, with a warning.
   int missing_material(const MeshFile& file, std::size_t slot, const Location& where);
 
 private:
@@ -76,12 +77,12 @@ private:
   std::map<std::string, int> textures_;                           ///< by canonical path
   std::map<std::vector<std::string>, std::shared_ptr<const Panorama>> panoramas_; ///< by canonical paths
   std::unordered_set<std::string> material_names_;
-  std::unordered_set<std::string> expected_;        ///< as they are named
+  std::unordered_set<std::string> expected_;        ///< as named in the scene
   std::unordered_set<std::string> broken_textures_; ///< canonical paths
   int default_material_ = -1;
 };
 
-/// The index of the picture for a material made from OBJ, XML…: the readers' MtlMaterial -> Material.
+/// Converts a material of OBJ, XML … files and adds it. Returns its index.
 int add_mtl_material(SceneBuilder& builder, const MtlMaterial& material, const std::string& name);
 
 /// instance_bounds of all instances.
@@ -90,10 +91,10 @@ Bounds3 scene_bounds(const SceneDesc& scene);
 /// Of a shape alone, in its own space.
 Bounds3 object_bounds(const Shape& shape);
 
-/// Whether anything shines: a light, or an instance with an emitting material.
+/// Whether the scene has a light or an instance with an emitting material.
 bool has_light(const SceneDesc& scene);
 
-/// Looks at the bounds from the front (+z), a little above, so that all is in the picture.
+/// Places the camera in front of the bounds (+z), slightly above, so that they fit into the picture.
 void frame_camera(Camera& camera, const Bounds3& bounds);
 
 } // namespace candela

@@ -28,19 +28,19 @@
 //
 // camera, settings: the rows of settings_table(), nested at the dots of their keys. materials, lights: the
 // rows of material_fields() of the type and of light_fields(). Angles are degrees; a colour may be one
-// number, a grey. All but "candela" may be left out and has its default then.
+// number, a grey. All members except "candela" are optional and have defaults.
 //
 // An environment light has a panorama: "file", or "files" (six faces of a cube: +x, -x, +y, -y, +z, -z), or
-// inline "image": {"name", "width", "height", "pixels": [3 width height numbers]}; without one it is the same
-// from everywhere. For its "mapping" see lights/environment_map.h.
+// inline "image": {"name", "width", "height", "pixels": [3 width height numbers]}; without one it is
+// constant. For its "mapping" see lights/environment_map.h.
 //
-// Files are named relative to the scene's folder. A number or colour of a material may be a texture, of which
-// it is factor * texel + offset: {"texture": …, "factor": 1, "offset": 0, "channel", "filter", "wrap",
+// Files are named relative to the scene's folder. A number or colour of a material may be a texture, which
+// gives factor * texel + offset: {"texture": …, "factor": 1, "offset": 0, "channel", "filter", "wrap",
 // "color_space", "uv_scale": [1, 1], "uv_rotation": 0, "uv_offset": [0, 0]}. The texture is a picture file,
 // or the name or index of an entry of "textures": a list of {"file", "name"}, pictures inline ({"name",
 // "width", "height", "channels": 1, 3 or 4, and "srgb": [bytes], "uint16": […] or "float": […]}), or other
-// kinds by their "type" ({"type": "checker", "name", "even", "odd", "squares"}). A picture keeps the bits
-// that its file has; 8 and 16 bits are decoded as the use's color_space says. Older files say
+// kinds by their "type" ({"type": "checker", "name", "even", "odd", "squares"}). A picture keeps the
+// precision of its file; 8 and 16 bits are decoded according to color_space. Older files say
 // "diffuse_texture" (a file or an index), "diffuse_uv_scale" and "diffuse_uv_offset" beside "diffuse", the
 // factor.
 //
@@ -69,21 +69,21 @@
 
 namespace candela {
 
-/// Reads a scene; `file` may name files as `policy` has it. Every error has the line and column of the
+/// Reads a scene; `policy` restricts the files that it may name. Every error has the line and column of the
 /// offending token.
 Document read_candela_json(const FoundFile& file, const PathPolicy& policy, WarningList& warnings);
 
-/// The same from a text that lies in the file `shown` (a picture), and names files relative to its folder.
+/// The same from a text in the file `shown` (a picture), relative to whose folder files are named.
 Document parse_candela_json(std::string text, const std::string& shown, const PathPolicy& policy,
                             WarningList& warnings);
 
-/// The document in the format above: what differs from the defaults. Numbers read back to the same bits.
-/// Mesh files inside the tree of `folder` are written by reference, relative to it, other meshes inline (a
-/// scene may not name files outside its tree); pictures by reference wherever they lie, inline only if they
-/// came from no file. Throws output_error for a document with a document_problem.
+/// The document in the format above, without default values. Numbers read back to the same bits. Mesh files
+/// inside the tree of `folder` are written by reference, relative to it, other meshes inline (a scene may not
+/// name files outside its tree). Pictures are written by reference, and inline only if they have no file.
+/// Throws output_error for a document with a document_problem.
 std::string candela_json(const Document& document, const std::string& folder);
 
-/// The same into a file, which appears whole or not at all. output_error if it cannot be written.
+/// Writes the same to a file, atomically. output_error if it cannot be written.
 void write_candela_json(const Document& document, const std::string& path);
 
 } // namespace candela

@@ -94,7 +94,8 @@ private:
     return (failed ? fs::path(source) : file.lexically_relative(folder_)).generic_string();
   }
 
-  /// Whether the reader, which numbers textures as materials come to name them, would number them so.
+  /// Whether the reader, which numbers textures in the order of their first use by materials, would number
+  /// them in this way.
   bool textures_are_natural() const {
     std::set<std::string> sources;
     int next = 0;
@@ -238,8 +239,8 @@ private:
     return fmt::format("\"materials\": {}{}{}", named ? "{" : "[", joined(items, ", "), named ? "}" : "]");
   }
 
-  /// Takes the coordinates to the world that the reader will find: those of the file of a mesh that is
-  /// written by reference. Where that is far from the mesh's own origin, floats would not do.
+  /// The transform to the world for the coordinates that the reader will find: for a mesh written by
+  /// reference, those of its file. In double precision, since the mesh may be far from the file's origin.
   std::string transform(const Instance& instance) const {
     const mat4& m = instance.world_from_object;
     const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape);

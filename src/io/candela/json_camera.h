@@ -6,8 +6,8 @@
 
 namespace candela {
 
-/// An object of the camera's values; what it leaves out is a default camera's. Throws input_error at an
-/// unknown key, a value that does not fit its row, or a view that goes nowhere; `element` names it in the
+/// Reads an object of the camera's values; missing ones are those of a default camera. Throws input_error for
+/// an unknown key, a value that does not fit its row, or a view without direction; `element` names it in the
 /// message.
 Camera read_json_camera(JsonValue object, const std::string& element);
 

@@ -54,7 +54,7 @@ std::optional<std::string> text_of(const FieldInfo& field, JsonValue value) {
   return std::nullopt;
 }
 
-/// How the field is written in JSON.
+/// The allowed values, in the syntax of JSON.
 std::string domain(const FieldInfo& field) {
   std::string words = field_domain(field);
   if (field.type == FieldType::point) words = "[x, y, z]";
@@ -73,7 +73,7 @@ void read_field(const FieldInfo& field, void* address, JsonValue value, std::str
   if (!text) throw refuse(fmt::format("{} does not fit", type_name(value.type())));
   try {
     field_from_text(field, address, *text);
-  } catch (const Error&) { // of the command line: it knows no place
+  } catch (const Error&) { // a usage error without a location
     throw refuse(fmt::format("'{}' does not fit", shortened(*text)));
   }
 }
@@ -122,7 +122,7 @@ float read_real(JsonValue value, std::string_view element) {
   float out = 0;
   auto status = std::from_chars(token.data(), token.data() + token.size(), out).ec;
   if (status == std::errc()) return out;
-  // Too large or too small for a float, which from_chars does not tell apart.
+  // Out of the range of a float: from_chars does not distinguish too large from too small.
   return static_cast<float>(read_double(value, element));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Rows of the field tables (core/fields.h) as JSON values.
+// JSON values of the rows of field tables (core/fields.h).
 
 #include "core/fields.h"
 #include "io/candela/json_tree.h"
@@ -19,7 +19,7 @@ void read_field(const FieldInfo& field, void* address, JsonValue value, std::str
 /// The field's value in JSON, which reads back to the same bits.
 std::string field_json(const FieldInfo& field, const void* address);
 
-// Values that are in no table. All throw input_error at the value.
+// Values without a row. All throw input_error at the value.
 void expect(JsonValue value, JsonType type, std::string_view element);
 std::string read_string(JsonValue value, std::string_view element);
 float read_real(JsonValue value, std::string_view element);    ///< finite in float
@@ -31,7 +31,7 @@ void read_reals(JsonValue value, std::span<double> out, std::string_view element
 vec2 read_vec2(JsonValue value, std::string_view element);
 vec3 read_vec3(JsonValue value, std::string_view element);
 
-/// The error of a key that means nothing here, with the nearest of the keys that would.
+/// The error for an unknown key, with the nearest known key.
 Error unknown_key(JsonValue key, std::string_view element, std::span<const std::string_view> known);
 
 /// Reads a key that is a row of the table, if it is one.
@@ -43,6 +43,17 @@ bool read_row(std::span<const Field<Owner>> rows, std::type_identity_t<Owner>& o
       read_field(row, row.address(owner), value, std::string(element) + "." + key.string());
       return true;
     }
+  return false;
+}
+
+/// Whether one of `types` types has a value that the object's own type has not. It is read into a default
+/// object of that type and dropped, so that a malformed value is an error whatever the object's type is.
+template <class MakeDefault, class Read>
+bool read_for_other_types(int types, MakeDefault make_default, Read read) {
+  for (int type = 0; type < types; ++type) {
+    auto other = make_default(type);
+    if (read(other)) return true;
+  }
   return false;
 }
 

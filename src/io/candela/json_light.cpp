@@ -48,7 +48,7 @@ std::shared_ptr<const Panorama> read_inline(JsonValue object, const std::string&
   return panorama;
 }
 
-/// What "files" lists.
+/// Reads "files".
 std::vector<FoundFile> read_faces(JsonValue array, const std::string& element, const PathPolicy& policy,
                                   const std::string& folder) {
   expect(array, JsonType::array, element);
@@ -61,19 +61,12 @@ std::vector<FoundFile> read_faces(JsonValue array, const std::string& element, c
   return files;
 }
 
-bool is_key_of_another_type(std::string_view key) {
-  for (int type = 0; type < kLightTypeCount; ++type)
-    for (const auto& row : light_fields(type))
-      if (row.key == key) return true;
-  return false;
-}
-
 } // namespace
 
 LightDesc read_json_light(JsonValue object, const std::string& element, SceneBuilder& builder,
                           const std::string& folder) {
   LightDesc light;
-  for (auto [key, value] : object.members()) // it decides which other keys there are
+  for (auto [key, value] : object.members()) // first, because the other keys depend on it
     if (key.string() == "type") {
       int type = 0;
       read_field(light_type_field(), &type, value, element + ".type");
@@ -106,7 +99,9 @@ LightDesc read_json_light(JsonValue object, const std::string& element, SceneBui
         environment->panorama = read_inline(value, name, builder.warnings());
     } else if (read_row(light_fields(light), light, key, value, element)) {
       if (key.string() == "mapping") mapping = value;
-    } else if (is_key_of_another_type(key.string())) {
+    } else if (read_for_other_types(kLightTypeCount, default_light, [&](LightDesc& other) {
+                 return read_row(light_fields(other), other, key, value, element);
+               })) {
       builder.warnings().add(key.where(), fmt::format("{}: a light of the type {} has no such value", name,
                                                       light_type_name(light)));
     } else {

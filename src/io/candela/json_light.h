@@ -8,12 +8,12 @@ namespace candela {
 
 /// Reads {"name", "type", the rows of that type's light_fields()} and the panorama of an environment: "file",
 /// or "files" of six faces, or "image": {"name", "width", "height", "pixels": [3 width height numbers]}.
-/// Files are named relative to `folder`. Values that lights of other types have are ignored, with a warning.
-/// Throws input_error.
+/// Files are named relative to `folder`. Values that lights of other types have are checked, then ignored
+/// with a warning. Throws input_error.
 LightDesc read_json_light(JsonValue object, const std::string& element, SceneBuilder& builder,
                           const std::string& folder);
 
-/// "image": …, of a panorama that came from no file.
+/// The member "image" of a panorama without a file.
 std::string json_panorama_member(const Panorama& panorama);
 
 } // namespace candela

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kOldTexture = "diffuse_texture", kOldScale = "diffuse_uv_scale",
                            kOldOffset = "diffuse_uv_offset";
 
-/// What is added to a texture may be anything.
+/// The offset of a texture has no range of its own.
 FieldInfo offset_row(const FieldInfo& row) {
   constexpr double kMost = 1e9;
   FieldInfo out = row;
@@ -22,7 +22,7 @@ FieldInfo offset_row(const FieldInfo& row) {
   return out;
 }
 
-/// Where nothing else is said, a texture is taken as it is.
+/// By default a texture is not scaled.
 void set_plain_factor(const ParameterRef& parameter) {
   if (parameter.number != nullptr)
     *parameter.number = 1.0f;
@@ -57,7 +57,7 @@ void read_textured(JsonValue object, const MaterialField& row, const ParameterRe
                       "give a \"texture\", or a value instead of the object");
 }
 
-/// Whether the material's type has such a value.
+/// Reads a value of the material's type; false if the type has no such key.
 bool read_value(Material& material, JsonValue key, JsonValue value, const std::string& element,
                 const JsonTextureNames& textures) {
   const MaterialField* row = find_material_field(material_type(material), key.string());
@@ -70,17 +70,7 @@ bool read_value(Material& material, JsonValue key, JsonValue value, const std::s
   return true;
 }
 
-/// Whether any type has such a value; it is read to be checked.
-bool read_for_others(JsonValue key, JsonValue value, const std::string& element,
-                     const JsonTextureNames& textures) {
-  for (int type = 0; type < kMaterialTypeCount; ++type) {
-    Material other = default_material(type);
-    if (read_value(other, key, value, element, textures)) return true;
-  }
-  return false;
-}
-
-/// The way to name the one texture that there was once.
+/// Older files name the only texture of a material so.
 bool read_old_texture(Material& material, JsonValue key, JsonValue value, const std::string& element,
                       const JsonTextureNames& textures) {
   const std::string& name = key.string();
@@ -110,7 +100,7 @@ std::string textured_json(const MaterialField& row, const ParameterRef& paramete
     if (!field_equal(info, value, usual))
       members.push_back(fmt::format("\"{}\": {}", key, field_json(info, value)));
   };
-  const vec3 ones(1), zeros(0); // of which a number looks at the first component
+  const vec3 ones(1), zeros(0); // a number uses the first component
   add("factor", row, parameter.value(), &ones);
   add("offset", offset_row(row), parameter.offset(), &zeros);
   for (const auto& part : texture_use_fields())
@@ -126,7 +116,7 @@ std::string textured_json(const MaterialField& row, const ParameterRef& paramete
 
 Material read_json_material(JsonValue object, const std::string& element, const JsonTextureNames& textures) {
   int type = 0;
-  for (auto [key, value] : object.members()) // first of all, for the others' defaults depend on it
+  for (auto [key, value] : object.members()) // first, because the defaults depend on it
     if (key.string() == "type") read_field(material_type_field(), &type, value, element + ".type");
   Material material = default_material(type);
   for (auto [key, value] : object.members()) {
@@ -135,7 +125,9 @@ Material read_json_material(JsonValue object, const std::string& element, const 
       material.name = read_string(value, element + ".name");
     else if (!read_value(material, key, value, element, textures) &&
              !read_old_texture(material, key, value, element, textures) &&
-             !read_for_others(key, value, element, textures)) {
+             !read_for_other_types(kMaterialTypeCount, default_material, [&](Material& other) {
+               return read_value(other, key, value, element, textures);
+             })) {
       std::vector<std::string_view> known = {"name", "type", kOldTexture, kOldScale, kOldOffset};
       for (int t = 0; t < kMaterialTypeCount; ++t)
         for (const MaterialField& row : material_fields(t))

@@ -10,7 +10,7 @@
 
 namespace candela {
 
-/// What the scene makes of the name of a texture.
+/// Resolve references to textures to indices.
 struct JsonTextureNames {
   /// A picture file, or the index of an entry of "textures".
   std::function<int(JsonValue, const std::string& element)> file_or_index;
@@ -20,7 +20,7 @@ struct JsonTextureNames {
 
 /// Reads {"name", "type", the rows of material_fields()}. A parameter is a value, or {"texture": …, "factor",
 /// "offset", the rows of texture_use_fields(), "uv_scale", "uv_offset"}. Values of other types than the
-/// material's must fit their rows, and are forgotten. Throws input_error.
+/// material's are checked, then ignored. Throws input_error.
 Material read_json_material(JsonValue object, const std::string& element, const JsonTextureNames& textures);
 
 /// The members of a material that differ from its type's defaults; `reference` writes a texture's index.

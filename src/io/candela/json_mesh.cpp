@@ -56,7 +56,7 @@ void check_count(JsonValue value, std::size_t expected, std::string_view element
                       fmt::format("give one for each of the {}", of));
 }
 
-/// Unit or zero normals stay as they are, bit for bit; others are made unit.
+/// Keeps unit and zero normals bit for bit; normalises others.
 void make_unit(std::vector<vec3>& normals, const WarningList& warnings) {
   for (vec3& n : normals) {
     warnings.check_stop();
@@ -73,7 +73,7 @@ Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view 
                                         "uvs",  "material_slots", "slots",     "source"};
   Mesh mesh;
   mesh.name = name;
-  // Counts are checked against those of other members, which may come later.
+  // Counts are checked after all members have been found.
   std::optional<JsonValue> triangles, normals, uvs, slots;
   for (auto [key, value] : object.members()) {
     std::string where = fmt::format("{}.{}", element, key.string());

@@ -10,7 +10,7 @@ namespace candela {
 
 namespace {
 
-/// What a list of texels is called, by the index of Texels::Data.
+/// Keys of the lists of texels, by the index of Texels::Data.
 constexpr std::string_view kData[] = {"srgb", "uint16", "float"};
 static_assert(std::size(kData) == std::variant_size_v<Texels::Data>);
 
@@ -69,7 +69,7 @@ std::shared_ptr<const Texels> read_picture(JsonValue object, const std::string& 
   return out;
 }
 
-/// Of a kind that is all rows.
+/// Reads a texture of a kind described by rows.
 TextureModel read_rows(TextureModel model, JsonValue object, const std::string& element) {
   std::visit(
       [&](auto& kind) {

@@ -23,7 +23,7 @@ struct JsonTexture {
 /// Throws input_error. Told to stop, it throws Cancelled.
 JsonTexture read_json_texture(JsonValue object, std::string_view element, const WarningList& warnings);
 
-/// The object of a texture that came from no file.
+/// The JSON object of a texture without a file.
 std::string json_texture(const Texture& texture);
 
 } // namespace candela

@@ -15,7 +15,7 @@ bool is_number_char(char c) {
   return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == 'e' || c == 'E';
 }
 
-/// One past the token that starts at `start`. Called for tokens that the parser has accepted.
+/// One past the token that starts at `start`, which the parser has accepted.
 std::size_t token_end(std::string_view text, std::size_t start) {
   std::size_t i = start;
   char c = text[start];
@@ -55,8 +55,8 @@ std::string_view after_last(std::string_view text, std::string_view mark) {
   return found == std::string_view::npos ? text : text.substr(found + mark.size());
 }
 
-/// The characters of the text, one after the other, for the parser; it may be told to stop anywhere, also in
-/// a string or a comment of hundreds of megabytes.
+/// Iterates over the characters for the parser and checks for cancellation, even within strings or comments
+/// of hundreds of megabytes.
 class WatchedCharacters {
 public:
   using iterator_category = std::input_iterator_tag;
@@ -90,15 +90,15 @@ constexpr std::size_t kMaxNodes = std::size_t{1} << 25;
 
 } // namespace
 
-/// The receiver of nlohmann's SAX events. They come without places, but in order: the place of each token is
-/// the first character, after the token before, that is neither space nor a separator.
+/// The receiver of nlohmann's SAX events. They have no locations but come in order: each token begins at the
+/// first character after the previous token that is neither space nor a separator.
 class JsonTreeBuilder {
 public:
   JsonTreeBuilder(JsonTree& tree, ProgressPart* progress, double share)
       : tree_(tree), text_(tree.text_), progress_(progress),
         share_of_byte_(share / static_cast<double>(text_.size() + 1)) {}
 
-  // The interface that nlohmann::json::sax_parse asks for.
+  // The interface that nlohmann::json::sax_parse requires.
   bool null() { return leaf(JsonType::null); }
   bool boolean(bool) { return leaf(JsonType::boolean); }
   bool number_integer(std::int64_t) { return leaf(JsonType::number); }
@@ -109,7 +109,7 @@ public:
     tree_.strings_.push_back(std::move(value));
     return true;
   }
-  bool binary(nlohmann::json::binary_t&) { return false; } // JSON text has none
+  bool binary(nlohmann::json::binary_t&) { return false; } // not in JSON text
   bool start_object(std::size_t) { return open(JsonType::object); }
   bool start_array(std::size_t) { return open(JsonType::array); }
   bool key(std::string& value) {
@@ -156,7 +156,7 @@ private:
     if (tree_.nodes_.size() >= kMaxNodes)
       throw limit_error(place(start), "JSON", fmt::format("more than {} values", kMaxNodes),
                         "keep large meshes in OBJ files");
-    // Elements count their array here; members of an object are counted with their keys.
+    // Elements of arrays are counted here, members of objects with their keys.
     if (!open_.empty() && tree_.nodes_[open_.back()].type == JsonType::array)
       ++tree_.nodes_[open_.back()].value;
     cursor_ = token_end(text_, start);

@@ -1,5 +1,5 @@
 #pragma once
-// A JSON text as a tree in which every token knows its place, so that an error can point at it.
+// JSON as a tree in which every token has its location, for error messages.
 
 #include "core/error.h"
 #include "core/progress.h"
@@ -23,7 +23,7 @@ public:
   JsonType type() const;
   Location where() const;         ///< of its first character
   std::size_t offset() const;     ///< the same, in bytes from the start of the file
-  std::string_view token() const; ///< as it stands in the file; of an array or object the bracket alone
+  std::string_view token() const; ///< as in the file; for arrays and objects only the bracket
   bool boolean() const { return token() == "true"; }
   const std::string& string() const; ///< unescaped; of strings only
   std::uint32_t size() const;        ///< elements of an array, members of an object
@@ -56,13 +56,13 @@ struct JsonValue::Member {
   JsonValue value;
 };
 
-/// The parsed file. Nodes lie in document order in one array, 16 bytes each, so that a mesh of millions of
-/// numbers is no burden; numbers are kept as text, to be read in the precision that their user has.
+/// The parsed file. Nodes are stored in document order in one array, 16 bytes each, because meshes have
+/// millions of numbers. Numbers are kept as text, to be parsed in the precision of their user.
 class JsonTree {
 public:
   /// Parses RFC 8259 JSON; comments (// and /* */) count as space. Throws input_error for syntax errors and
   /// duplicate keys, limit_error for more than 64 levels or 2^25 values. Parsing is the part [0, share] of
-  /// `progress`, if there is one, and ends with Cancelled when that says so.
+  /// `progress`, which may be null, and throws Cancelled when that is cancelled.
   JsonTree(std::string file, std::string text, ProgressPart* progress = nullptr, double share = 1);
 
   JsonValue root() const { return {*this, 0}; }
@@ -75,7 +75,7 @@ private:
   struct Node {
     std::uint32_t offset; ///< of the token in text_
     std::uint32_t end;    ///< one past the last node of this subtree
-    std::uint32_t value;  ///< string: index into strings_; array and object: how many children
+    std::uint32_t value;  ///< string: index into strings_; array and object: number of children
     JsonType type;
   };
   std::string file_;

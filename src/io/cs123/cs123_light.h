@@ -6,7 +6,7 @@
 
 namespace candela {
 
-/// What `<lightdata>` says; an area light becomes a rectangle.
+/// The contents of `<lightdata>`; an area light becomes a rectangle.
 struct Cs123Light {
   enum class Type { point, directional, spot, area };
   std::string name = "light";
@@ -18,19 +18,17 @@ struct Cs123Light {
   float width = 1, height = 1;                         ///< of an area light
 };
 
-/// Reads `<lightdata>`. Where the format's description leaves room:
+/// Reads `<lightdata>`. Where the format's description is ambiguous:
 ///
 /// - A light without a type is a point light. Its colour is its intensity on its axis (point, spot), its
 ///   irradiance (directional) or its radiance (area).
-/// - `function` a b c divides the intensity of point and spot lights by a + b r + c r^2; without it light
-/// falls
-///   off with the square of the distance. One that is not physical is a warning.
-/// - `angle` is half the opening angle of a spot in degrees (20 if it is missing), and the light falls off
-/// over
-///   the outer `penumbra` degrees of it (0 if missing), linearly in the angle.
+/// - `function` a b c divides the intensity of point and spot lights by a + b r + c r^2; without it the light
+///   falls off with the square of the distance. An unphysical function is a warning.
+/// - `angle` is half the opening angle of a spot in degrees (default 20). The intensity falls off linearly in
+///   the angle over the outer `penumbra` degrees of it (default 0).
 /// - An area light is a rectangle about its position that faces its direction, `width` wide in the horizontal
-///   and `height` in the other direction (along x and z if it looks straight up or down); 1 if missing. It
-///   becomes an emitting rectangle, so it is seen in the picture, too.
+///   and `height` in the other direction (along x and z if it faces straight up or down); default 1. It
+///   becomes an emitting rectangle, so it is visible in the picture.
 ///
 /// Errors are located at the element or attribute.
 Cs123Light read_cs123_light(pugi::xml_node data, const Cs123Values& values);

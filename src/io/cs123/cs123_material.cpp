@@ -15,7 +15,7 @@ float Cs123Values::parse(std::string_view text, pugi::xml_node node, const Locat
     throw input_error(where, node.name(), fmt::format("'{}' is no finite number", word.substr(0, 40)),
                       "give a decimal number");
   if (word.front() == '+') word.remove_prefix(1);
-  double value = 0; // from_chars leaves it 0 below the range of a double
+  double value = 0; // from_chars leaves 0 below the range of a double
   std::from_chars(word.data(), word.data() + word.size(), value);
   return static_cast<float>(value);
 }
@@ -86,7 +86,7 @@ std::optional<MtlMaterial> cs123_material(pugi::xml_node object, const Cs123Valu
       auto repeats = [&](const char* axis) { return values.optional_number(child, {axis}).value_or(1); };
       TextureUse use = ColorParameter::standard_use();
       use.uv.scale = {repeats("u"), repeats("v")};
-      out.textures.clear(); // the last one counts
+      out.textures.clear(); // only the last one is used
       if (auto found = policy.find_exported(file.value(), folder, where, "texture", values.warnings()))
         out.textures.push_back({"diffuse", std::move(*found), use, where});
       else

@@ -1,5 +1,5 @@
 #pragma once
-// Attributes of CS123 XML elements, and the material that an object gives itself.
+// Attributes of CS123 XML elements, and the materials of objects.
 
 #include "io/files/xml_place.h"
 #include "io/obj/mtl_reader.h"
@@ -13,7 +13,7 @@ class Cs123Values {
 public:
   Cs123Values(const XmlPlaces& places, WarningList& warnings) : places_(places), warnings_(warnings) {}
 
-  /// The first attribute that is there, as a finite number.
+  /// The first existing attribute, as a finite number.
   std::optional<float> optional_number(pugi::xml_node node, std::initializer_list<const char*> names) const;
   float number(pugi::xml_node node, std::initializer_list<const char*> names) const;
   /// x y z (or v1 v2 v3, a b c).
@@ -37,8 +37,7 @@ struct Cs123Coefficients {
   float diffuse = 1, specular = 1, transparent = 1;
 };
 
-/// The material that the children of a primitive describe; nothing if none does. `folder` is that of the
-/// scene, for its texture.
+/// The material that the children of a primitive describe, if any. `folder` is the scene's, for textures.
 std::optional<MtlMaterial> cs123_material(pugi::xml_node object, const Cs123Values& values,
                                           const Cs123Coefficients& global, const PathPolicy& policy,
                                           const std::string& folder);

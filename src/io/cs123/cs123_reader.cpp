@@ -21,7 +21,7 @@ using glm::dvec3;
 constexpr std::size_t kMaxXmlBytes = std::size_t{64} << 20;
 constexpr int kMaxDepth = 64;
 constexpr std::size_t kMaxInstances = 1'000'000;
-/// Of the time that the file takes, that of its syntax.
+/// Share of the reading time that parsing takes.
 constexpr double kSyntaxShare = 0.5;
 constexpr std::size_t kMaxTransblocks = 4'000'000;
 
@@ -81,7 +81,7 @@ public:
 private:
   pugi::xml_node parse() {
     auto result = run_apart(&progress_, nullptr, [text = text_, xml = xml_](ProgressPart*, WarningList*) {
-      // Offsets are those of the text only while nothing is converted.
+      // Offsets refer to the text only without encoding conversion.
       return xml->load_buffer(text->data(), text->size(), pugi::parse_default, pugi::encoding_utf8);
     });
     if (!result)
@@ -97,9 +97,9 @@ private:
     return scene;
   }
 
-  /// Counts what will be read.
+  /// Announces the files that will be read, for the progress.
   void expect_files(pugi::xml_node node, int depth) {
-    if (depth > 3 * kMaxDepth) return; // refused later
+    if (depth > 3 * kMaxDepth) return; // reported later
     progress_.check();
     for (const char* key : {"filename", "file"})
       if (auto name = node.attribute(key)) builder_.expect_file(name.value(), folder_);
@@ -311,7 +311,7 @@ private:
     document_.scene.instances.push_back(std::move(instance));
   }
 
-  /// Index of the material that the object gives itself, -1 if it gives none. Instances of one master share.
+  /// Index of the object's own material, -1 if it has none. Instances of a master object share it.
   int own_material(pugi::xml_node node, const std::string& kind) {
     auto [known, is_new] = own_materials_.try_emplace(node.internal_object(), -1);
     if (!is_new) return known->second;
@@ -327,7 +327,7 @@ private:
     if (!attribute)
       throw input_error(places_.element(node), "object", "a mesh without a file", "write filename=\"….obj\"");
     Location where = places_.attribute(attribute, node);
-    // The course's scenes name absolute paths of the machines that they were made on.
+    // The course's scenes have absolute paths of the machines on which they were created.
     auto found =
         builder_.policy().find_exported(attribute.value(), folder_, where, "filename", builder_.warnings());
     if (!found) found = builder_.policy().require(attribute.value(), folder_, where, "filename");

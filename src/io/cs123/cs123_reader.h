@@ -6,7 +6,7 @@
 
 namespace candela {
 
-/// Reads a CS123 scene. Where its description leaves room, this reader takes it so:
+/// Reads a CS123 scene. Where the format's description is ambiguous:
 ///
 /// - globaldata's coefficients (kd, ks, kt; ambient light does not exist here) scale the materials that the
 ///   XML itself gives, not those of OBJ files, and are 1 where they are missing.
@@ -22,13 +22,13 @@ namespace candela {
 ///   not, else phong if `specular` is not, else diffuse.
 /// - MTL files are of MtlDialect::cs123.
 /// - Lights are those of io/cs123/cs123_light.h.
-/// - Primitives fill the cube of side 1 about the origin: a sphere has the radius 0.5; cylinder and cone
-/// stand
-///   on y = -0.5 and end at y = 0.5, closed; a torus lies about the y axis, its tube of radius 0.125 about a
+/// - Primitives fill the cube of side 1 about the origin: a sphere has radius 0.5; cylinder and cone reach
+///   from y = -0.5 to y = 0.5, with caps; a torus lies about the y axis, its tube of radius 0.125 about a
 ///   circle of radius 0.375.
 ///
-/// What is ignored is counted in `warnings`. Errors are located at the element or attribute. limit_error
-/// above 64 levels, a million instances or four million transblocks (masters of masters grow fast).
+/// Ignored elements are counted in `warnings`. Errors are located at the element or attribute. limit_error
+/// above 64 levels, a million instances or four million transblocks (nested master objects grow
+/// exponentially).
 Document read_cs123(const FoundFile& file, const PathPolicy& policy, WarningList& warnings);
 
 } // namespace candela

@@ -1,5 +1,5 @@
 #pragma once
-// Work that cannot be interrupted, in a thread that can be left alone.
+// Runs work that cannot be interrupted in a thread that can be abandoned.
 
 #include "core/progress.h"
 #include "io/files/warning_list.h"
@@ -14,8 +14,8 @@
 
 namespace candela {
 
-/// Counts the threads that run apart. Those that were left alone are told to stop, and the end of the program
-/// waits a little for them, so that they find the libraries that they use.
+/// Counts these threads. Abandoned ones are told to stop, and the program's end waits for them a short time,
+/// so that libraries are not unloaded while they run.
 class ApartThread {
 public:
   ApartThread();
@@ -27,9 +27,9 @@ private:
   bool counts_ = true;
 };
 
-/// Does the work in a thread of its own, and gives what it gives or throws. check() is called again and again
-/// meanwhile; what it throws is thrown at once, and the thread is left to end alone: so `work` must own all
-/// that it uses.
+/// Runs `work` in a thread of its own and returns its result or rethrows its exception. Meanwhile check() is
+/// called repeatedly; if it throws, the exception is rethrown at once and the thread is abandoned. So `work`
+/// must own everything that it uses.
 template <class Work, class Check>
 auto run_while(Work work, Check check) {
   std::packaged_task<std::invoke_result_t<Work&>()> task(std::move(work));
@@ -39,8 +39,8 @@ auto run_while(Work work, Check check) {
   return result.get();
 }
 
-/// Calls work(progress, warnings) like that until `progress` says that it is to end, which throws Cancelled.
-/// What the work is handed is its own, too. Without `progress` the work is done here.
+/// Calls work(progress, warnings) in this way, with objects of its own; throws Cancelled when `progress` is
+/// cancelled. Without `progress` the work runs on the calling thread.
 template <class Work>
 auto run_apart(ProgressPart* progress, WarningList* warnings, Work work) {
   if (!progress) return work(static_cast<ProgressPart*>(nullptr), warnings);

@@ -29,10 +29,10 @@ Error failed(const std::string& path, const char* what, int error) {
   return output_error(path, fmt::format("{}: {}", what, std::strerror(error)), remedy);
 }
 
-/// The file that `path` stands for: links are followed, also to a file that does not exist yet.
+/// The file that `path` refers to: follows links, even to files that do not exist yet.
 std::string follow_links(const std::string& path) {
   fs::path at = path;
-  for (int i = 0; i < 40; ++i) { // as many as the kernel follows
+  for (int i = 0; i < 40; ++i) { // the kernel's limit
     std::error_code error;
     fs::path next = fs::read_symlink(at, error);
     if (error) return at.string();
@@ -50,8 +50,8 @@ void write_all(int descriptor, std::span<const std::uint8_t> bytes, const std::s
   }
 }
 
-/// Makes the new name itself survive a crash. Some file systems cannot sync a folder, and the file is whole
-/// either way, so a failure is no error.
+/// Makes the new name survive a crash. Failures are ignored: some file systems cannot sync folders, and the
+/// file is complete in any case.
 void sync_folder(const std::string& file) {
   fs::path folder = fs::path(file).parent_path();
   int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -62,16 +62,15 @@ void sync_folder(const std::string& file) {
 
 bool is_special(const struct stat& status) { return !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode); }
 
-/// A file that is a mount of its own cannot be replaced by one of its folder.
+/// A file that is a mount point cannot be replaced by a file of its folder.
 bool is_mounted_file(const std::string& path, const struct stat& status) {
   struct statx more {};
   return S_ISREG(status.st_mode) && ::statx(AT_FDCWD, path.c_str(), 0, STATX_TYPE, &more) == 0 &&
          (more.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
 }
 
-/// N of /dev/fd/N, /proc/self/fd/N and of links to them, such as /dev/stdout. To open such a path again would
-/// begin at the start of the file, over what others have written; to replace the file would leave them with
-/// one that has no name.
+/// N of /dev/fd/N, /proc/self/fd/N and of links to them, such as /dev/stdout. Opening such a path again would
+/// overwrite the file from its start; replacing it would leave other writers with an unlinked file.
 std::optional<int> named_descriptor(const std::string& path) {
   fs::path at = path;
   for (int i = 0; i < 40; ++i) {
@@ -90,7 +89,7 @@ std::optional<int> named_descriptor(const std::string& path) {
   return std::nullopt;
 }
 
-/// How a path is written to.
+/// The way of writing to a path.
 enum class Way { replaced, opened, descriptor };
 
 struct Target {
@@ -105,8 +104,8 @@ Target target_of(const std::string& path) {
   return {is_special(status) || is_mounted_file(path, status) ? Way::opened : Way::replaced, -1};
 }
 
-/// Whether rename would fail because of the folder's sticky bit: others' files stay there, even those that
-/// everybody may write to.
+/// Whether rename would fail because of the folder's sticky bit, which protects other users' files even if
+/// they are writable.
 bool is_kept_by_folder(const struct stat& file, const fs::path& folder) {
   struct stat status {};
   const uid_t me = ::geteuid();
@@ -120,25 +119,25 @@ PendingFile::PendingFile(const std::string& path) : path_(path), target_(follow_
   if (path.empty()) throw output_error("''", "the name is empty", "name a file");
   struct stat status {};
   const bool replaces = ::stat(target_.c_str(), &status) == 0;
-  // A name that is too long, a file taken for a folder: no new file can have that name either.
+  // For instance, the name is too long, or a parent is a file: no new file can have that name either.
   if (!replaces && errno != ENOENT) throw failed(path, "it cannot be written", errno);
   if (replaces && S_ISDIR(status.st_mode)) throw failed(path, "it cannot be written", EISDIR);
-  // rename would replace a file that its owner made read-only.
+  // rename would replace even a read-only file.
   if (replaces && ::access(target_.c_str(), W_OK) != 0) throw failed(path, "it cannot be written", errno);
   static std::atomic<unsigned> counter = 0;
   fs::path folder = fs::path(target_).parent_path();
   if (replaces && is_kept_by_folder(status, folder)) throw failed(path, "it cannot be replaced", EPERM);
   for (int attempt = 0; attempt < 1000 && descriptor_ < 0; ++attempt) {
-    // Short whatever the target's name is, which may have the greatest length itself.
+    // A short name, since the target's name may have the maximum length.
     temporary_ = (folder / fmt::format(".candela-{}-{}.tmp", ::getpid(), counter++)).string();
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
   if (descriptor_ < 0) {
-    temporary_.clear(); // it is not ours
+    temporary_.clear(); // the file is not ours
     throw failed(path, "it cannot be written", errno);
   }
-  // Where this is not allowed, the file has the usual permissions.
+  // If this fails, the file has the default permissions.
   if (replaces && ::fchmod(descriptor_, status.st_mode & 07777) != 0) errno = 0;
 }
 
@@ -191,7 +190,7 @@ bool PendingFile::commit_new(const std::string& path) {
 void write_file_atomically(const std::string& path, std::span<const std::uint8_t> bytes) {
   const Target target = target_of(path);
   if (target.way == Way::descriptor) {
-    std::fflush(nullptr); // what was said before comes before
+    std::fflush(nullptr); // keeps the order of the output
     write_all(target.descriptor, bytes, path);
     return;
   }
@@ -221,10 +220,10 @@ void check_writable(const std::string& path) {
     if ((mode & O_ACCMODE) == O_RDONLY) throw failed(path, "it cannot be written", EBADF);
     return;
   }
-  case Way::opened: // to open a pipe would wait for its reader
+  case Way::opened: // opening a pipe would wait for its reader
     if (::access(path.c_str(), W_OK) != 0) throw failed(path, "it cannot be written", errno);
     return;
-  case Way::replaced: PendingFile{path}; return; // goes as it came
+  case Way::replaced: PendingFile{path}; return; // removed at once
   }
 }
 
@@ -242,7 +241,7 @@ std::string write_file_uniquely(const std::string& folder, const std::string& st
   auto candidate = [&](int i) {
     return (fs::path(folder) / (i == 1 ? stem + ending : fmt::format("{}-{}{}", stem, i, ending))).string();
   };
-  // The pending file needs a name in the folder only for its messages and its place.
+  // The pending file's name only serves for messages and to choose the folder.
   PendingFile file((fs::path(folder) / fmt::format(".{}-new{}", stem, ending)).string());
   file.write(bytes);
   for (int i = 1; i < 1000000; ++i)

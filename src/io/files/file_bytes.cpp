@@ -42,7 +42,7 @@ Container read_whole(const std::string& path, const char* element, std::size_t m
   if (size > max_bytes)
     throw limit_error(where, element, fmt::format("{} bytes are more than the {} allowed", size, max_bytes),
                       "use a smaller file");
-  // Filling the container with zeros first would take long for gigabytes, and nobody could stop that.
+  // Filling the container with zeros first would take long for gigabytes, without a check for cancellation.
   Container bytes;
   bytes.reserve(size);
   std::array<char, 65536> piece;
@@ -52,7 +52,7 @@ Container read_whole(const std::string& path, const char* element, std::size_t m
     ssize_t got = ::read(file.value, piece.data(), wanted);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) throw failed("it cannot be read");
-    if (got == 0) break; // it shrank meanwhile: what is missing is the decoder's to find
+    if (got == 0) break; // the file has shrunk: the decoder will report it
     const auto* begin = reinterpret_cast<const typename Container::value_type*>(piece.data());
     bytes.insert(bytes.end(), begin, begin + got);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// What can be told of a file without reading it: whether it is another one now.
+// A stamp that tells whether a file has changed, without reading it.
 
 #include <cstdint>
 #include <filesystem>

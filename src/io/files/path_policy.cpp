@@ -18,7 +18,7 @@ std::string folder_of(const std::string& path) {
 
 namespace {
 
-/// Never throws: what cannot be resolved stays as it is and is not found later.
+/// Never throws: a path that cannot be resolved is returned unchanged, and is not found later.
 fs::path canonical_or_same(const fs::path& path) {
   std::error_code failed;
   fs::path absolute = fs::absolute(path, failed);
@@ -45,7 +45,7 @@ bool equal_but_case(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower, lower);
 }
 
-/// The entry of the folder that is called so, but for the case of its letters; empty if there is none.
+/// The folder's entry that equals the name up to the case of letters; empty if there is none.
 std::string name_in_other_case(const fs::path& folder, const std::string& name) {
   constexpr int kMostEntries = 100'000;
   std::error_code failed;
@@ -59,7 +59,7 @@ std::string name_in_other_case(const fs::path& folder, const std::string& name) 
   return found;
 }
 
-/// In a message.
+/// The name for a message.
 std::string shown_name(const std::string& name) { return utf8_name(name.substr(0, 200)); }
 
 bool is_file(const fs::path& path) {
@@ -93,7 +93,7 @@ std::optional<FoundFile> PathPolicy::find(const std::string& reference, const st
   if (!allow_outside_ && !absolute_inside && fs::path(name).is_absolute())
     throw input_error(where, element, fmt::format("'{}' is an absolute path", reference),
                       "name it relative to the scene, or allow it with --allow-outside");
-  // Resolved as written: "link/../x" is beside what the link points to.
+  // Resolved by the system: "link/../x" is next to the target of the link.
   fs::path canonical = canonical_or_same(fs::path(base_folder) / name);
   if (!allow_outside_ && !is_inside(canonical, root_) && !admitted_.contains(canonical.string()))
     throw input_error(where, element,
@@ -102,7 +102,8 @@ std::optional<FoundFile> PathPolicy::find(const std::string& reference, const st
   if (!asked_->contains(canonical.string()))
     asked_->emplace(canonical.string(), file_stamp(canonical.string()));
   if (!is_file(canonical)) return std::nullopt;
-  // The short form leads elsewhere if it drops a ".." behind a link; files beside this one start from it.
+  // The lexically shortened path differs if it drops a ".." after a link; relative names start from this
+  // path.
   fs::path shown = full();
   return FoundFile{(canonical_or_same(shown) == canonical ? shown : canonical).string(), canonical.string()};
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Which files a scene may name. A scene is somebody else's input: it may refer to files beside and below it,
-// not to the rest of the disk.
+// The files that a scene may name. Scenes are untrusted input: they may refer to files in their folder's
+// tree, not to the rest of the disk.
 
 #include "io/files/file_stamp.h"
 #include "io/files/warning_list.h"
@@ -13,53 +13,54 @@
 
 namespace candela {
 
-/// A file that exists. `shown` is the path as a person would write it, for messages; `canonical` is absolute
-/// and without symbolic links, for opening, comparing and Mesh::source.
+/// An existing file. `shown` is the path for messages; `canonical` is absolute and without symbolic links,
+/// for opening, comparing and Mesh::source.
 struct FoundFile {
   std::string shown;
   std::string canonical;
 };
 
-/// Absolute and without symbolic links; as far as that can be told, for what does not exist.
+/// Absolute and without symbolic links, as far as the path exists.
 std::string canonical_path(const std::string& path);
 
 /// The folder part of a path, "." for a bare name.
 std::string folder_of(const std::string& path);
 
-/// The name of a regular file relative to a folder in whose tree it lies, links followed; nothing for others.
+/// The name of a regular file relative to a folder in whose tree it is, following links; nothing for other
+/// files.
 std::optional<std::string> path_below(const std::string& folder, const std::string& file);
 
 class PathPolicy {
 public:
-  /// Files may lie in `root_folder` and below it, or anywhere if allow_outside.
+  /// Files may be in `root_folder` and below it, or anywhere if allow_outside.
   PathPolicy(const std::string& root_folder, bool allow_outside);
 
-  /// Lets this file be opened wherever it lies.
+  /// Allows this file wherever it is.
   void admit(const std::string& canonical) { admitted_.insert(canonical); }
 
-  /// The regular file that `reference`, written in a file of `base_folder`, means; nothing if there is none.
-  /// Symbolic links are followed before the place is judged. Throws input_error at `where` (of `element`) for
-  /// an absolute path and for a file outside the root, whether it exists or not, unless outside is allowed.
-  /// A backslash counts as a slash where the name as it is does not exist, for files written on Windows.
+  /// The regular file that `reference`, written in a file of `base_folder`, refers to; nothing if it does not
+  /// exist. The check follows symbolic links. Throws input_error at `where` (of `element`) for an absolute
+  /// path and for a file outside the root, existing or not, unless outside is allowed. If the name does not
+  /// exist, backslashes count as slashes, for files written on Windows.
   std::optional<FoundFile> find(const std::string& reference, const std::string& base_folder,
                                 const Location& where, std::string_view element) const {
     return find(reference, base_folder, where, element, false);
   }
 
-  /// The same for files that exporters wrote, who name what they had on their own machine: in quotes, by
-  /// absolute paths of any system, by folders that did not travel along, in another case. What is not where
-  /// the name says, or may not be named there, is looked for beside the file that names it, with a warning.
-  /// Throws for a relative name outside the root alone.
+  /// The same for files written by exporters, which may have names of another machine: in quotes, with
+  /// absolute paths of any system, with missing folders, in another case. A file that is not found or not
+  /// allowed at its path is searched in the folder of the file that names it, with a warning. Throws only for
+  /// a relative name outside the root.
   std::optional<FoundFile> find_exported(std::string reference, const std::string& base_folder,
                                          const Location& where, std::string_view element,
                                          WarningList& warnings) const;
 
-  /// The same as find, but a missing file is an input_error too.
+  /// The same as find, but a missing file is an input_error.
   FoundFile require(const std::string& reference, const std::string& base_folder, const Location& where,
                     std::string_view element) const;
 
-  /// All files that it was asked for and that may be named, whether they exist or not, by their canonical
-  /// paths, as they were then. Copies of a policy share it.
+  /// All allowed files that were looked up, existing or not, by canonical path, with their stamps at that
+  /// time. Copies of a policy share them.
   const FileStamps& asked() const { return *asked_; }
 
 private:

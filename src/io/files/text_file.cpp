@@ -14,7 +14,7 @@ namespace candela {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-/// So much is looked at between two looks at whether to go on.
+/// Bytes processed between two checks for cancellation.
 constexpr std::size_t kStride = std::size_t{16} << 20;
 
 /// Calls work(begin, end) for the pieces of [0, size).
@@ -39,8 +39,7 @@ void append_utf8(std::string& out, std::uint32_t c) {
   }
 }
 
-/// Of a text that begins with the byte order mark of either order. Surrogates without their half become
-/// U+FFFD.
+/// Converts UTF-16 with a byte order mark to UTF-8. Unpaired surrogates become U+FFFD.
 std::string utf8_from_utf16(std::string_view text, const WarningList* warnings) {
   const bool big_endian = text[0] == '\xfe';
   auto unit = [&](std::size_t i) {
@@ -115,7 +114,7 @@ std::string_view trimmed(std::string_view text) {
 
 namespace {
 
-/// Length of the valid UTF-8 sequence at the front (RFC 3629), 0 if there is none.
+/// Length of the valid UTF-8 sequence at the start (RFC 3629), 0 if there is none.
 std::size_t sequence_length(std::string_view s) {
   auto byte = [&](std::size_t i) {
     return i < s.size() ? static_cast<unsigned>(static_cast<unsigned char>(s[i])) : 0u;

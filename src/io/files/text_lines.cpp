@@ -7,7 +7,7 @@ namespace candela {
 
 namespace {
 
-/// So much is searched between two looks at whether to go on.
+/// Bytes searched between two checks for cancellation.
 constexpr std::size_t kStride = std::size_t{16} << 20;
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
@@ -17,7 +17,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t'; }
 TextLines::TextLines(std::string& text, ProgressPart& progress, double share)
     : text_(text), progress_(progress), share_of_byte_(share / static_cast<double>(text.size() + 1)) {}
 
-/// Of the first `c` in [from, limit), `limit` if there is none.
+/// Position of the first `c` in [from, limit), or `limit`.
 std::size_t TextLines::find(char c, std::size_t from, std::size_t limit) const {
   for (std::size_t begin = from; begin < limit; begin += kStride) {
     progress_.check();
@@ -29,8 +29,8 @@ std::size_t TextLines::find(char c, std::size_t from, std::size_t limit) const {
 }
 
 std::size_t TextLines::end_of_line(std::size_t from) {
-  // Two searches for one character each are many times quicker than one for either; the LF that was found is
-  // kept, as a file whose lines end in CR has none.
+  // Two searches for one character each are much faster than one for either; the position of the next LF is
+  // kept, since a file with CR line ends has none.
   if (!newline_known_ || newline_ < from) newline_ = find('\n', from, text_.size()), newline_known_ = true;
   return find('\r', from, newline_);
 }

@@ -8,18 +8,18 @@
 
 namespace candela {
 
-/// Lines end in LF, CR LF or CR. A backslash at the end of one continues it: both become blanks, so that
-/// columns stay those of the file.
+/// Lines end in LF, CR LF or CR. A backslash at the end continues a line; both are replaced by blanks, so
+/// that columns are those of the file.
 class TextLines {
 public:
-  /// `text` must outlive this; continued lines are joined in it. The lines are the part [0, share] of
-  /// `progress`.
+  /// `text` must outlive this; continued lines are joined in place. Reading the lines is the part [0, share]
+  /// of `progress`.
   TextLines(std::string& text, ProgressPart& progress, double share);
 
-  /// Goes to the next line; whether there is one. Throws Cancelled.
+  /// Advances to the next line; false at the end. Throws Cancelled.
   bool next();
   std::string_view line() const { return line_; } ///< without its end
-  int number() const { return number_; }          ///< from 1; of a continued line its first
+  int number() const { return number_; }          ///< from 1; for a continued line that of the first
 
 private:
   std::size_t end_of_line(std::size_t from);
@@ -30,8 +30,8 @@ private:
   ProgressPart& progress_;
   double share_of_byte_;
   std::string_view line_;
-  std::size_t next_ = 0;    ///< where the next line starts
-  std::size_t newline_ = 0; ///< the LF that was found last; the text's size if there is none
+  std::size_t next_ = 0;    ///< start of the next line
+  std::size_t newline_ = 0; ///< position of the next LF; the text's size if there is none
   bool newline_known_ = false;
   int number_ = 0;
   int joined_ = 0; ///< line ends within the current line

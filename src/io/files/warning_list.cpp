@@ -36,7 +36,7 @@ void WarningList::add(const WarningList& other) {
 }
 
 void WarningList::add(std::string key, const Warning& warning) {
-  // A hostile file could say something different in every line: beyond this many, all the rest is one.
+  // A malicious file could cause a different warning in every line: beyond this limit, the rest is merged.
   constexpr std::size_t kMaxDistinct = 200;
   if (auto known = index_.find(key); known != index_.end()) {
     warnings_[known->second].count += warning.count;

@@ -1,5 +1,5 @@
 #pragma once
-// What a reader has to say without refusing the file.
+// Warnings of readers, and their progress.
 
 #include "core/error.h"
 #include "core/progress.h"
@@ -12,29 +12,28 @@
 
 namespace candela {
 
-/// `text` is located ("models/x.obj:12: …") at the first of the `count` places where it happened.
+/// `text` has the location ("models/x.obj:12: …") of the first of `count` occurrences.
 struct Warning {
   std::string text;
   int count = 1;
   bool operator==(const Warning&) const = default;
 };
 
-/// A reader's line to who waits for it: warnings and progress one way, the wish to stop the other. Collects
-/// warnings; those that say the same of the same file become one, counted. The unit of progress is a byte of
-/// a file.
+/// Connects a reader with its caller: collects warnings, reports progress and checks for cancellation. Equal
+/// warnings about one file are merged and counted. The unit of progress is a byte of a file.
 class WarningList {
 public:
   explicit WarningList(std::shared_ptr<Progress> progress = std::make_shared<Progress>())
       : progress_(std::move(progress)) {}
-  /// To be called wherever a reader may be for long; throws Cancelled.
+  /// Called regularly during long work; throws Cancelled.
   void check_stop() const { progress_->check(); }
   const Progress& progress() const { return *progress_; }
-  /// Counts a file that will be read, so that the share is of all that is known to come.
+  /// Announces a file that will be read, so that the progress includes it.
   void expect_file(const std::string& canonical);
-  /// The part of the progress that is one file.
+  /// The progress of one file.
   ProgressPart part(const std::string& canonical, std::size_t bytes);
   void add(const Location& where, std::string_view text);
-  /// Those of another list.
+  /// Adds the warnings of another list.
   void add(const WarningList& other);
   const std::vector<Warning>& warnings() const { return warnings_; }
 
@@ -42,7 +41,7 @@ private:
   void add(std::string key, const Warning& warning);
 
   std::shared_ptr<Progress> progress_;
-  std::map<std::string, std::uint64_t> expected_; ///< bytes of files that were not read yet, by path
+  std::map<std::string, std::uint64_t> expected_; ///< bytes of files that have not been read yet, by path
   std::vector<Warning> warnings_;
   std::map<std::string, std::size_t> index_; ///< by file and text
 };

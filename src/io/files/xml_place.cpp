@@ -7,14 +7,14 @@ namespace candela {
 Location XmlPlaces::offset(std::size_t offset) const { return locate(file_, text_, offset); }
 
 Location XmlPlaces::element(pugi::xml_node node) const {
-  auto name = node.offset_debug(); // of the name, one past the '<'
+  auto name = node.offset_debug(); // the name's offset, one past the '<'
   return name <= 0 ? Location{file_} : offset(static_cast<std::size_t>(name) - 1);
 }
 
 Location XmlPlaces::attribute(pugi::xml_attribute wanted, pugi::xml_node node) const {
   auto name = node.offset_debug();
   if (name <= 0) return element(node);
-  // The start tag is well-formed, or pugixml would have refused it: name="value" name='value' …
+  // pugixml has checked that the start tag is well-formed: name="value" name='value' …
   std::size_t i = static_cast<std::size_t>(name) + std::string_view(node.name()).size();
   for (pugi::xml_attribute attribute : node.attributes()) {
     i = text_.find_first_not_of(" \t\r\n", i);

@@ -1,5 +1,5 @@
 #pragma once
-// Places in XML files: pugixml keeps an element's offset, not its attributes'.
+// Locations in XML files: pugixml stores offsets of elements but not of attributes.
 
 #include "core/error.h"
 
@@ -14,9 +14,9 @@ class XmlPlaces {
 public:
   XmlPlaces(std::string file, std::string_view text) : file_(std::move(file)), text_(text) {}
 
-  /// Of the '<' of an element.
+  /// Location of an element's '<'.
   Location element(pugi::xml_node node) const;
-  /// Of an attribute's name.
+  /// Location of an attribute's name.
   Location attribute(pugi::xml_attribute attribute, pugi::xml_node node) const;
   Location offset(std::size_t offset) const;
 

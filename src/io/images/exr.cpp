@@ -84,7 +84,7 @@ glm::dmat3 xyz_from_rgb(const Imf::Chromaticities& c) {
   return glm::dmat3(primaries[0] * scale[0], primaries[1] * scale[1], primaries[2] * scale[2]);
 }
 
-/// White stays white: Bradford's adaptation between the white points (Lam 1985, as in ICC.1:2010, annex E).
+/// Bradford's chromatic adaptation between the white points (Lam 1985, as in ICC.1:2010, annex E).
 glm::dmat3 rec709_from(const Imf::Chromaticities& c) {
   glm::dmat3 bradford =
       glm::transpose(glm::dmat3(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296));
@@ -106,29 +106,29 @@ void to_rec709(Image& image, const Imf::Header& header, const Location& where) {
   for (vec3& pixel : image.pixels) pixel = vec3(m * glm::dvec3(pixel));
 }
 
-/// The most that a compression makes of a byte; 0 where a block of zeros takes next to nothing.
+/// The largest expansion factor of a compression; 0 if blocks of zeros take almost no space.
 std::int64_t largest_expansion(Imf::Compression compression) {
   switch (compression) {
   case Imf::NO_COMPRESSION: return 1;
-  case Imf::RLE_COMPRESSION: return 64; // two bytes for a run of 128
+  case Imf::RLE_COMPRESSION: return 64; // two bytes encode a run of 128
   case Imf::ZIPS_COMPRESSION:
   case Imf::ZIP_COMPRESSION:
-  case Imf::PXR24_COMPRESSION: return 1032; // deflate's
+  case Imf::PXR24_COMPRESSION: return 1032; // that of deflate
   default: return 0;
   }
 }
 
-/// Refuses headers that claim more than the file can hold, before pixels are allocated.
+/// Rejects headers that claim more pixels than the file can hold, before allocation.
 void check_plausible(const Imf::Header& header, std::size_t bytes, std::int64_t width, std::int64_t height,
                      const Location& where) {
-  // The directory of offsets alone takes 8 bytes for every block of at most 256 scan lines (DWAB), or tile.
+  // The table of offsets takes 8 bytes for every block of at most 256 scan lines (DWAB) or tile.
   std::int64_t blocks = height / 256;
   if (header.hasTileDescription()) {
     const Imf::TileDescription& tile = header.tileDescription();
     blocks = (width / std::max(std::int64_t{1}, std::int64_t{tile.xSize})) *
              (height / std::max(std::int64_t{1}, std::int64_t{tile.ySize}));
   }
-  std::int64_t pixel_bytes = 0; // PXR24 keeps 3 bytes of a float
+  std::int64_t pixel_bytes = 0; // PXR24 stores 3 bytes of a float
   for (auto i = header.channels().begin(); i != header.channels().end(); ++i)
     if (i.channel().xSampling == 1 && i.channel().ySampling == 1)
       pixel_bytes += i.channel().type == Imf::HALF ? 2 : 3;
@@ -144,7 +144,7 @@ void read_luminance_chroma(Imf::IStream& stream, Image& image, const Imath::Box2
   std::vector<Imf::Rgba> row(static_cast<std::size_t>(image.width));
   for (int y = 0; y < image.height; ++y) {
     if (progress) progress->reach(static_cast<double>(y) / image.height);
-    // The library wants the address that pixel (0, 0) would have; stride 0 keeps every row in this one.
+    // The library needs the address of pixel (0, 0); stride 0 maps all rows to this one.
     file.setFrameBuffer(row.data() - window.min.x, 1, 0);
     file.readPixels(window.min.y + y);
     for (int x = 0; x < image.width; ++x) {
@@ -180,7 +180,7 @@ void read_channels(Imf::InputPart& part, Image& image, const ExrLayer& layer, co
   if (layer.g != layer.r) insert(layer.g, 1);
   if (layer.b != layer.r) insert(layer.b, 2);
   part.setFrameBuffer(frame);
-  // Bands of whole blocks, which the library decodes once for a call.
+  // Bands of whole blocks, since each call decodes whole blocks.
   const int band = std::max(16, block_height(part.header()));
   for (int y = 0; y < image.height; y += band) {
     if (progress) progress->reach(static_cast<double>(y) / image.height);
@@ -214,11 +214,11 @@ Image decode(ByteView bytes, const Location& where, ProgressPart* progress, Warn
   return image;
 }
 
-/// Calls the library within its limits; what it throws becomes an Error.
+/// Calls the library with limits set; converts its exceptions to Error.
 template <class Work>
 auto guarded(Work work, const Location& where) {
   static std::once_flag limits;
-  std::call_once(limits, [] { // the library then refuses larger headers before it allocates for them
+  std::call_once(limits, [] { // the library then rejects larger headers before allocation
     Imf::Header::setMaxImageSize(static_cast<int>(kMaxImageSide), static_cast<int>(kMaxImageSide));
     Imf::Header::setMaxTileSize(8192, 8192);
   });
@@ -228,7 +228,7 @@ auto guarded(Work work, const Location& where) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& problem) { // Iex has many kinds, and all mean the same here
+  } catch (const std::exception& problem) { // all kinds of Iex mean the same here
     throw damaged_image(where, fmt::format("it is no valid EXR ({})", problem.what()));
   }
 }

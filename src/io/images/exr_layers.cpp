@@ -20,16 +20,16 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-/// How well the name fits the picture itself; 0: not at all.
+/// How well the name fits the main image; 0: not at all.
 int fitness(const std::string& name) {
   const std::string last = lower(name.substr(name.rfind('.') + 1)); // npos + 1 is 0
   if (last == "combined" || last == "beauty" || last == "rgba") return 2;
   return name.empty() ? 1 : 0;
 }
 
-/// Appends the layers of a part that have colour.
+/// Appends the colour layers of a part.
 void add_layers(const Imf::Header& header, int part, std::vector<ExrLayer>& layers) {
-  // By prefix ("diffuse."), in the order of the file: the channels' own names, in capitals.
+  // By prefix ("diffuse."), in the order of the file: the channels' names in capitals.
   std::vector<std::pair<std::string, std::map<std::string, std::string>>> prefixes;
   for (auto i = header.channels().begin(); i != header.channels().end(); ++i) {
     const std::string full = i.name(), prefix = full.substr(0, full.rfind('.') + 1);
@@ -48,7 +48,7 @@ void add_layers(const Imf::Header& header, int part, std::vector<ExrLayer>& laye
     ExrLayer layer{part, prefix.substr(0, prefix.size() - !prefix.empty()), named("r"), named("g"),
                    named("b")};
     if (layer.r.empty() && layer.g.empty() && layer.b.empty()) {
-      // Y beside X and Z is a coordinate.
+      // Y together with X and Z is a coordinate.
       if (channels.contains("x") || channels.contains("z")) continue;
       layer.r = layer.g = layer.b = named("y");
       if (layer.r.empty()) continue;

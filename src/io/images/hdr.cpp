@@ -1,6 +1,6 @@
 // Radiance RGBE pictures: Ward, "Real Pixels", Graphics Gems II (1991), and the run lengths of Radiance's
-// color.c. stb_image reads them too, but takes what a short file lacks from memory it never wrote, and knows
-// neither the exposure nor the other orientations.
+// color.c. stb_image reads them, too, but returns uninitialised memory for truncated files, and supports
+// neither the exposure nor other orientations.
 //
 // A mantissa m with exponent byte e is m * 2^(e - 136), as most programs read it (Radiance itself adds half
 // a step to m).
@@ -42,7 +42,7 @@ public:
     return p;
   }
   std::size_t left() const { return bytes_.size() - at_; }
-  /// Whether a scan line in Radiance's newer run-length code starts here.
+  /// Whether a scan line in Radiance's new run-length encoding starts here.
   bool starts_new_rle(int length) const {
     return length >= 8 && length < 32768 && left() >= 4 && bytes_[at_] == 2 && bytes_[at_ + 1] == 2 &&
            (bytes_[at_ + 2] << 8 | bytes_[at_ + 3]) == length;
@@ -55,7 +55,7 @@ private:
   std::size_t at_ = 0;
 };
 
-/// The four components one after the other, each in runs.
+/// The four components in turn, each run-length encoded.
 void read_new_rle(Cursor& in, std::vector<Rgbe>& row, const Location& where) {
   in.skip(4);
   for (std::size_t c = 0; c < 4; ++c)
@@ -70,8 +70,8 @@ void read_new_rle(Cursor& in, std::vector<Rgbe>& row, const Location& where) {
     }
 }
 
-/// Pixels as they are, with the old code's repeat marks (1, 1, 1, count), whose counts of successive marks
-/// are successive bytes of one number.
+/// Uncompressed pixels, with the old encoding's repeat marks (1, 1, 1, count); counts of consecutive marks
+/// are the bytes of one number, lowest first.
 void read_flat(Cursor& in, std::vector<Rgbe>& row, const Location& where) {
   int shift = 0;
   for (std::size_t x = 0; x < row.size();) {
@@ -93,7 +93,7 @@ struct Resolution {
   bool flip_x = false, flip_y = false, by_columns = false;
 };
 
-/// "-Y 512 +X 768": the scan lines' order. -Y first is from the top.
+/// "-Y 512 +X 768": the order of scan lines. -Y first means from the top.
 Resolution parse_resolution(std::string_view text, const Location& where) {
   struct Axis {
     bool positive = false;
@@ -120,7 +120,7 @@ Resolution parse_resolution(std::string_view text, const Location& where) {
   return {static_cast<int>(x.count), static_cast<int>(y.count), !x.positive, y.positive, by_columns};
 }
 
-/// EXPOSURE and COLORCORR lines say what the pixels have been multiplied with.
+/// EXPOSURE and COLORCORR lines have the factors by which the pixels were multiplied.
 std::array<double, 3> parse_numbers(std::string_view text, std::size_t count, const Location& where) {
   std::array<double, 3> values{1, 1, 1};
   for (std::size_t i = 0; i < count; ++i) {
@@ -157,8 +157,8 @@ Image decode_hdr(ByteView bytes, const Location& where, ProgressPart* progress) 
   Resolution size = parse_resolution(in.line(), where);
   int length = size.by_columns ? size.height : size.width;
   int lines = size.by_columns ? size.width : size.height;
-  // The least that a scan line takes: runs of 127 of each component, or one pixel and repeat marks that
-  // grow by a factor of 256.
+  // The least size of a scan line: runs of 127 of each component, or one pixel and repeat marks that grow by
+  // a factor of 256.
   std::size_t least = length < 8 ? 4 : 8;
   if (in.left() / least < static_cast<std::size_t>(lines))
     throw damaged_image(where, "the HDR is too short for the size it claims");
@@ -190,13 +190,13 @@ Image decode_hdr(ByteView bytes, const Location& where, ProgressPart* progress) 
 namespace {
 
 Rgbe rgbe_of(vec3 color) {
-  for (int c = 0; c < 3; ++c) // the largest that the format holds; comparisons with NaN are false
+  for (int c = 0; c < 3; ++c) // the format's maximum; comparisons with NaN are false
     color[c] = color[c] > 0 ? std::min(color[c], 255.0f * 0x1p119f) : 0.0f;
   float largest = max_component(color);
   if (largest < 0x1p-128f) return {0, 0, 0, 0};
   int exponent = 0;
   std::frexp(largest, &exponent);
-  // Rounding may carry the mantissa to 256: then the next exponent holds it.
+  // Rounding may give a mantissa of 256: then use the next exponent.
   if (std::nearbyint(std::ldexp(largest, 8 - exponent)) > 255) ++exponent;
   Rgbe p{0, 0, 0, static_cast<std::uint8_t>(exponent + 128)};
   for (int c = 0; c < 3; ++c)
@@ -205,7 +205,7 @@ Rgbe rgbe_of(vec3 color) {
   return p;
 }
 
-/// Runs of at least four equal bytes are worth their mark.
+/// Only runs of at least four equal bytes save space.
 void write_component(const std::vector<Rgbe>& row, std::size_t c, Bytes& out) {
   constexpr std::size_t kWorth = 4;
   auto run_at = [&](std::size_t x) {

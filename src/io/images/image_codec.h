@@ -1,13 +1,11 @@
 #pragma once
-// What the image formats of this folder have in common, and their entry points.
-// Only image_file.cpp, texels_reader.cpp and panorama_reader.cpp use these;
-// everybody else goes through their headers.
+// Common parts of the image formats of this folder, and their entry points. Only image_file.cpp,
+// texels_reader.cpp and panorama_reader.cpp use these; other code includes their headers.
 //
-// Decoders take the whole file; they throw input_error for what is damaged and
-// limit_error for what is too large, located at `where`, before they allocate
-// pixels. `progress`, which may be null, tells how far they are; they end with
-// Cancelled when it says so, but for PNG, BMP and TGA, which are run apart
-// (io/files/apart.h) where somebody may want to stop them.
+// Decoders take the whole file. They throw input_error for damaged files and limit_error for too large ones,
+// located at `where`, before pixels are allocated. They report to `progress`, which may be null, and throw
+// Cancelled when it is cancelled; PNG, BMP and TGA cannot be interrupted and are run in a thread that can be
+// abandoned (io/files/apart.h).
 
 #include "core/error.h"
 #include "core/progress.h"
@@ -23,15 +21,14 @@
 
 namespace candela {
 
-/// Caps of every reader of pictures.
+/// Limits of all readers of pictures.
 inline constexpr std::int64_t kMaxImageSide = 65536;
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 28;
 
-/// Of a text in a picture, once it is decompressed.
+/// Limit of a decompressed text in a picture.
 inline constexpr std::size_t kMaxPictureText = std::size_t{1} << 28;
 
-/// Throws input_error unless both sides are positive, limit_error above the
-/// caps.
+/// Throws input_error unless both sides are positive, limit_error above the limits.
 void check_image_size(const Location& where, std::int64_t width, std::int64_t height);
 
 /// The error of a damaged file.
@@ -51,9 +48,8 @@ Image decode_image(ByteView bytes, const Location& where, ProgressPart* progress
 /// The linear picture.
 Image linear_image(const Picture8& picture);
 
-/// Makes the pixels of a picture finite: NaN becomes 0, an infinity what the half
-/// precision of EXR means by it, "more than 65504", or the largest value that is
-/// there, if that is more. Both are counted in a warning.
+/// Makes the pixels of a picture finite: NaN becomes 0, an infinity becomes 65504 (the largest half of EXR)
+/// or the picture's largest finite value, if that is larger. Both are counted in a warning.
 void make_finite(Image& image, const Location& where, WarningList& warnings);
 
 // stb_codec.cpp: PNG, BMP and (`tga`: it has no signature, so the caller has to
@@ -66,24 +62,22 @@ Texels decode_stb_texels(ByteView bytes, const Location& where, bool tga = false
 /// Throws std::bad_alloc when out of memory.
 Bytes encode_png(int width, int height, ByteView rgb);
 
-// png_check.cpp: structure and checksums of a PNG, which stb_image leaves
-// unread.
+// png_check.cpp: structure and checksums of a PNG, which stb_image does not check.
 bool is_png(ByteView bytes);
 void check_png(ByteView bytes, const Location& where);
 
 // png_text.cpp: text in a PNG.
 /// Adds iTXt chunks before the end; long texts are compressed.
 Bytes with_png_text(Bytes png, const ImageMetadata& text);
-/// The text of that name (in an iTXt chunk), nothing if there is none. The PNG has passed check_png. Throws
-/// damaged_image for a chunk that breaks off, limit_error above kMaxPictureText bytes of text.
+/// The text of that name (in an iTXt chunk), if there is one. The PNG must have passed check_png. Throws
+/// damaged_image for a truncated chunk, limit_error above kMaxPictureText bytes of text.
 std::optional<std::string> png_text(ByteView bytes, std::string_view name, const Location& where);
 
 // jpg.cpp: JPEG, grey and colour; written with quality 95 and colour in full
 // resolution.
 bool is_jpg(ByteView bytes);
 Picture8 decode_jpg(ByteView bytes, const Location& where, ProgressPart* progress = nullptr);
-/// `path` is for messages: output_error for what the format cannot hold (sides
-/// above 65500).
+/// `path` is for messages. output_error for sizes that the format does not support (above 65500).
 Bytes encode_jpg(int width, int height, ByteView rgb, const std::string& path);
 
 // pnm.cpp: PPM and PGM (P2, P3, P5, P6), up to 16 bits, read as sRGB; written

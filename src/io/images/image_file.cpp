@@ -21,7 +21,7 @@ constexpr std::array kEndings = {Ending{".png", ImageFormat::png},  Ending{".jpg
                                  Ending{".exr", ImageFormat::exr},  Ending{".hdr", ImageFormat::hdr},
                                  Ending{".pic", ImageFormat::hdr},  Ending{".pfm", ImageFormat::pfm}};
 
-/// From the last dot of the last part of the path, in small letters.
+/// The ending of the path's last part, in lower case.
 std::string ending_of(std::string_view path) {
   if (auto slash = path.rfind('/'); slash != std::string_view::npos) path.remove_prefix(slash + 1);
   auto dot = path.rfind('.');
@@ -72,7 +72,7 @@ Image decode_image(ByteView bytes, const Location& where, ProgressPart* progress
   if (is_pfm(bytes)) return decode_pfm(bytes, where, progress);
   if (is_pnm(bytes)) return decode_pnm(bytes, where, progress);
   throw input_error(where, "image",
-                    bytes.empty() ? "the file is empty" : "its content is of no known image format",
+                    bytes.empty() ? "the file is empty" : "its content has no known image format",
                     "use PNG, JPG, BMP, PPM, EXR, HDR or PFM");
 }
 

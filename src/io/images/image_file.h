@@ -1,5 +1,5 @@
 #pragma once
-// Pictures in files, whatever their format.
+// Reading and writing of pictures in all formats.
 
 #include "imaging/image.h"
 
@@ -14,8 +14,8 @@ namespace candela {
 /// The formats that can be written. PNG, JPG and PPM hold 8-bit sRGB, the others linear floats.
 enum class ImageFormat { png, jpg, ppm, exr, hdr, pfm };
 
-/// By the path's ending, in either case (".jpeg" and ".pic" are known too); a usage error that lists the
-/// known endings for any other.
+/// The format of a path's ending, in either case (also ".jpeg" and ".pic"); a usage error that lists the
+/// endings for unknown ones.
 ImageFormat image_format_of(std::string_view path);
 
 /// Whether the ending, in either case, is that of a picture that read_image might read.
@@ -31,20 +31,20 @@ constexpr bool is_linear_format(ImageFormat format) { return format >= ImageForm
 /// 2^28 in all.
 Image read_image(const std::string& path);
 
-/// Text (UTF-8) to keep in the file, by name: chunks in PNG, string attributes in EXR, header lines in HDR.
-/// The other formats have no room for it.
+/// Text (UTF-8) to store in the file, by name: chunks in PNG, string attributes in EXR, header lines in HDR.
+/// The other formats do not support it.
 using ImageMetadata = std::map<std::string, std::string>;
 
-/// Writes EXR (32-bit float, ZIP), HDR (negative and NaN channels become 0) or PFM by the ending. The file
-/// appears whole or not at all. A usage error for other endings, output_error if it cannot be written.
+/// Writes EXR (32-bit float, ZIP), HDR (negative and NaN channels become 0) or PFM by the ending. Writes
+/// atomically. A usage error for other endings, output_error if the file cannot be written.
 void write_linear_image(const Image& image, const std::string& path, const ImageMetadata& metadata = {});
 
 /// Writes PNG, JPG (quality 95) or PPM by the ending, from rows of three bytes a pixel, top row first.
 void write_srgb8_image(int width, int height, std::span<const std::uint8_t> rgb, const std::string& path,
                        const ImageMetadata& metadata = {});
 
-/// The same for screenshots: never overwrites, but takes the first free of stem.png, stem-2.png … in the
-/// folder and returns its path.
+/// The same for screenshots: writes to the first of stem.png, stem-2.png … in the folder that does not exist,
+/// and returns its path.
 std::string write_srgb8_image_uniquely(int width, int height, std::span<const std::uint8_t> rgb,
                                        const std::string& folder, const std::string& stem,
                                        ImageFormat format = ImageFormat::png);

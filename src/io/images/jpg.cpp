@@ -1,6 +1,5 @@
-// JPEG through libjpeg. Not through stb_image, whose Debian version (2.27)
-// trusts the Huffman tables of a file and reads and writes beside its own
-// arrays for some.
+// JPEG through libjpeg rather than stb_image, whose Debian version (2.27) does not validate Huffman tables
+// and accesses memory outside its arrays for some files.
 
 #include "io/images/image_codec.h"
 
@@ -16,13 +15,11 @@ namespace candela {
 
 namespace {
 
-/// A file of very many scans over a large picture would keep the decoder busy
-/// for hours.
+/// Many scans over a large picture would take the decoder hours.
 constexpr int kMaxScans = 500;
 
-/// libjpeg is C: an error leaves it by longjmp to the function that called it,
-/// and that function must have no objects with destructors in between. So the
-/// two functions that call libjpeg own nothing: their caller does.
+/// libjpeg reports errors by longjmp to the function that called it, which must therefore have no objects
+/// with destructors. So the two functions that call libjpeg own nothing; their caller does.
 struct ErrorState : jpeg_error_mgr {
   std::jmp_buf escape;
   char message[JMSG_LENGTH_MAX] = "";
@@ -36,8 +33,7 @@ ErrorState& state_of(j_common_ptr codec) { return *static_cast<ErrorState*>(code
   std::longjmp(state.escape, 1);
 }
 
-/// Warnings that mean lost pixels are errors here; the others (junk between
-/// segments) are not.
+/// Warnings about lost pixels are errors here; others (such as extra bytes between segments) are ignored.
 void on_message(j_common_ptr codec, int level) {
   if (level >= 0) return;
   switch (codec->err->msg_code) {
@@ -61,7 +57,8 @@ struct DecoderProgress : jpeg_progress_mgr {
   ProgressPart* whole = nullptr;
 };
 
-/// Called again and again by the decoder. A progressive file is decoded before its first line comes out.
+/// Called repeatedly by the decoder. A progressive file is decoded completely before its first line is
+/// available.
 void watch_decoder(j_common_ptr codec) {
   auto* decoder = reinterpret_cast<j_decompress_ptr>(codec);
   ErrorState& state = state_of(codec);
@@ -168,7 +165,7 @@ Picture8 decode_jpg(ByteView bytes, const Location& where, ProgressPart* progres
   check_image_size(where, width, height);
   if (decoder.codec.num_components > 3 || decoder.codec.jpeg_color_space == JCS_CMYK)
     throw input_error(where, "image", "it is a CMYK picture", "convert it to RGB");
-  // The first scan spends at least one bit on every 8x8 block.
+  // The first scan has at least one bit for every 8x8 block.
   if (!decoder.codec.arith_code && static_cast<std::int64_t>(bytes.size()) < width * height / 512)
     throw damaged_image(where, "the JPEG is too short for the size it claims");
   Picture8 picture{static_cast<int>(width), static_cast<int>(height),

@@ -1,6 +1,6 @@
 // Portable float map: "PF" (colour) or "Pf" (grey), width, height, a scale whose sign tells the byte order
 // (negative: little-endian), then rows from the bottom up (Debevec's description of the format). The scale's
-// size is a unit nobody agrees on: it is not applied.
+// magnitude has no agreed meaning and is ignored.
 
 #include "io/images/image_codec.h"
 #include "io/images/pnm_header.h"

@@ -1,5 +1,5 @@
-// A walk over a PNG's chunks (ISO/IEC 15948, clause 5): stb_image checks neither checksums nor that the file
-// is whole, so a flipped bit would silently become a wrong picture.
+// Checks a PNG's chunks (ISO/IEC 15948, clause 5): stb_image verifies neither checksums nor completeness, so
+// a damaged file would silently give a wrong picture.
 
 #include "io/images/image_codec.h"
 
@@ -34,7 +34,7 @@ std::uint32_t big_endian(const std::uint8_t* p) {
   return std::uint32_t{p[0]} << 24 | std::uint32_t{p[1]} << 16 | std::uint32_t{p[2]} << 8 | p[3];
 }
 
-/// The least number of bytes in the decompressed rows of the picture that an IHDR announces.
+/// The least number of bytes in the decompressed rows of a picture, from its IHDR.
 std::uint64_t row_bytes(const std::uint8_t* ihdr) {
   constexpr std::array<int, 7> kChannels = {1, 0, 3, 1, 2, 0, 4}; // by colour type
   std::uint64_t width = big_endian(ihdr), height = big_endian(ihdr + 4), depth = ihdr[8];
@@ -46,7 +46,7 @@ std::uint64_t row_bytes(const std::uint8_t* ihdr) {
 } // namespace
 
 bool is_png(ByteView bytes) {
-  // The signature's first half: the rest is there to show damage done on the way (check_png says so).
+  // Only the first half of the signature: the rest detects damage in transfer, which check_png reports.
   return bytes.size() >= 4 && std::memcmp(bytes.data(), kSignature.data(), 4) == 0;
 }
 
@@ -70,14 +70,15 @@ void check_png(ByteView bytes, const Location& where) {
       first = false;
     }
     if (is("IDAT")) {
-      // stb_image would copy nothing to nowhere, which is undefined; no known program writes such a file.
+      // stb_image would call memcpy with a null pointer, which is undefined; no known program writes such
+      // files.
       if (compressed == 0 && length == 0) throw damaged_image(where, "the pixels of the PNG start empty");
       compressed += length;
     }
     if (is("IEND")) break;
     at += 12 + length;
   }
-  // Deflate gives at most 1032 bytes for one.
+  // Deflate expands one byte to at most 1032.
   if (compressed * 1032 < rows) throw damaged_image(where, "the PNG is too short for the size it claims");
 }
 

@@ -14,7 +14,7 @@ namespace candela {
 
 namespace {
 
-/// From here on compression is worth its trouble to people who look into the file.
+/// Texts of at least this size are compressed; shorter ones stay readable in the file.
 constexpr std::size_t kLongText = 256;
 constexpr std::size_t kEndChunk = 12; ///< IEND has no data
 
@@ -43,7 +43,7 @@ std::string decompressed(ByteView data, std::string_view name, const Location& w
     z_stream& stream;
     ~Guard() { inflateEnd(&stream); }
   } guard{stream};
-  stream.next_in = const_cast<Bytef*>(data.data()); // zlib only reads it
+  stream.next_in = const_cast<Bytef*>(data.data()); // zlib does not modify it
   stream.avail_in = static_cast<uInt>(data.size());
   std::string out;
   std::array<char, 65536> part;
@@ -54,7 +54,7 @@ std::string decompressed(ByteView data, std::string_view name, const Location& w
     if (state != Z_OK && state != Z_STREAM_END) throw damaged_text(where, name);
     const std::size_t made = part.size() - stream.avail_out;
     if (made == 0 && state == Z_OK && stream.avail_in == 0) throw damaged_text(where, name);
-    if (out.size() + made > kMaxPictureText) // it may claim any size: the output is what is counted
+    if (out.size() + made > kMaxPictureText) // the decompressed size is limited
       throw limit_error(where, fmt::format("text '{}'", name),
                         fmt::format("it is longer than {} bytes", kMaxPictureText),
                         "it is no text that Candela has written");
@@ -72,7 +72,7 @@ Bytes with_png_text(Bytes png, const ImageMetadata& text) {
     const bool compress = value.size() >= kLongText;
     Bytes chunk{'i', 'T', 'X', 't'};
     chunk.insert(chunk.end(), name.begin(), name.end());
-    // The name's end, compressed or not, by zlib, no language, no translated name.
+    // End of the name, compression flag, method (zlib), no language, no translated name.
     for (int byte : {0, compress ? 1 : 0, 0, 0, 0}) chunk.push_back(static_cast<std::uint8_t>(byte));
     if (compress) {
       const Bytes data = compressed(value);
@@ -104,7 +104,7 @@ std::optional<std::string> png_text(ByteView bytes, std::string_view name, const
     if (data.size() < 4 || data[0] > 1 || data[1] != 0) throw damaged_text(where, name);
     const bool compressed_text = data[0] == 1;
     data = data.subspan(2);
-    for (int i = 0; i < 2; ++i) { // the language and the translated name, which nobody here writes
+    for (int i = 0; i < 2; ++i) { // skips the language and the translated name
       const auto zero = std::find(data.begin(), data.end(), 0);
       if (zero == data.end()) throw damaged_text(where, name);
       data = data.subspan(static_cast<std::size_t>(zero - data.begin()) + 1);

@@ -1,5 +1,5 @@
-// Portable pixmaps and greymaps (netpbm's ppm(5), pgm(5)): P2, P3 as text, P5, P6 binary. The specification's
-// transfer curve is BT.709's; programs in fact write sRGB, and so it is read.
+// Portable pixmaps and greymaps (netpbm's ppm(5), pgm(5)): P2, P3 as text, P5, P6 binary. The specification
+// has the transfer curve of BT.709, but programs write sRGB, so values are read as sRGB.
 
 #include "core/color.h"
 #include "io/images/image_codec.h"
@@ -60,7 +60,7 @@ bool is_pnm(ByteView bytes) {
 
 namespace {
 
-/// The numbers as they stand in the file.
+/// The numbers of the file.
 struct PnmRaster {
   std::int64_t width = 0, height = 0, maximum = 0;
   std::size_t channels = 1;
@@ -81,7 +81,7 @@ PnmRaster read_raster(ByteView bytes, const Location& where, ProgressPart* progr
   std::size_t w = static_cast<std::size_t>(out.width), h = static_cast<std::size_t>(out.height);
   std::size_t wide = out.maximum > 255 ? 2 : 1;
   ByteView data = header.rest();
-  // A number as text is a digit and a space, the last without the space.
+  // A number in text form has at least a digit and a space, the last one only a digit.
   std::size_t due = w * h * out.channels * (text ? 2 : wide) - (text ? 1 : 0);
   if (data.size() < due)
     throw damaged_image(where, fmt::format("it holds {} bytes of pixels where {} are due", data.size(), due));
@@ -103,7 +103,7 @@ PnmRaster read_raster(ByteView bytes, const Location& where, ProgressPart* progr
   return out;
 }
 
-/// What stands for 1 where `maximum` does so in the file.
+/// The integer for 1, if `maximum` is 1 in the file.
 template <class T>
 std::vector<T> scaled(const PnmRaster& raster) {
   constexpr std::int64_t kMost = std::numeric_limits<T>::max();

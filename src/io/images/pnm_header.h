@@ -1,5 +1,5 @@
 #pragma once
-// The words in front of the pixels of PPM, PGM and PFM files.
+// The headers of PPM, PGM and PFM files.
 
 #include "io/images/image_codec.h"
 
@@ -12,12 +12,12 @@ public:
   /// Starts behind the two letters of the signature, which the caller has checked.
   PnmHeader(ByteView bytes, const Location& where) : bytes_(bytes), where_(where), at_(2) {}
 
-  /// The next number; an input error that names it if there is none, or none that a picture could have.
+  /// The next number; an input error with its name if it is missing or out of range.
   std::int64_t integer(std::string_view name);
   float real(std::string_view name);
   /// Skips the one white space character behind the header.
   void end();
-  /// What follows.
+  /// The bytes after the header.
   ByteView rest() const { return bytes_.subspan(at_); }
 
 private:

@@ -1,7 +1,6 @@
-// PNG, BMP and TGA by stb_image. It is compiled here rather than linked from
-// Debian's libstb so that only these formats are reachable from a hostile file
-// (its JPEG, GIF, PSD and PIC readers have known holes) and so that the
-// sanitizers see inside.
+// PNG, BMP and TGA by stb_image. It is compiled here rather than linked from Debian's libstb so that
+// malicious files can reach only these formats (its JPEG, GIF, PSD and PIC readers have known
+// vulnerabilities), and so that sanitizers check it.
 
 #include "core/color.h"
 #include "io/images/image_codec.h"
@@ -35,12 +34,11 @@ using StbPixels = std::unique_ptr<T, Free>;
 
 bool is_bmp(ByteView bytes) { return bytes.size() >= 2 && bytes[0] == 'B' && bytes[1] == 'M'; }
 
-/// Uncompressed rows that the file does not hold would be read as whatever the
-/// memory held before.
+/// Missing uncompressed rows would be read as uninitialised memory.
 void check_tga(ByteView bytes, const Location& where, std::int64_t pixels) {
   bool run_length = (bytes[2] & 8) != 0;
   std::int64_t bytes_per_pixel = (bytes[16] + 7) / 8;
-  // A run-length packet makes at most 128 pixels.
+  // A run-length packet has at most 128 pixels.
   std::int64_t least = run_length ? pixels / 128 * (1 + bytes_per_pixel) : pixels * bytes_per_pixel;
   if (static_cast<std::int64_t>(bytes.size()) - 18 < least)
     throw damaged_image(where, "the TGA is too short for the size it claims");
@@ -53,7 +51,7 @@ void check_bmp(ByteView bytes, const Location& where, std::int64_t pixels) {
     throw damaged_image(where, "the BMP is too short for the size it claims");
 }
 
-/// A TGA says in its descriptor whether its rows run from the right, which stb_image overlooks.
+/// A TGA's descriptor has a flag for rows from right to left, which stb_image ignores.
 bool runs_leftwards(ByteView tga) { return (tga[17] & 0x10) != 0; }
 
 /// Rows of `width` texels of so many values.
@@ -72,13 +70,12 @@ Error undecodable(const Location& where) {
                        fmt::format("it cannot be decoded ({})", reason ? reason : "for no stated reason"));
 }
 
-/// Everything that is checked before pixels are allocated; the size.
+/// All checks before pixels are allocated; returns the size.
 std::pair<int, int> check_stb(ByteView bytes, const Location& where, bool tga) {
   if (is_png(bytes)) check_png(bytes, where);
   bool is_tga = tga && !is_stb_format(bytes);
-  // No other format that stb_image would find has such a second byte (TGA's
-  // kind of colour map), so that none gets past its own check by the ending
-  // .tga.
+  // No other format that stb_image recognises has such a second byte (TGA's colour map type), so none can
+  // bypass its own check by the ending .tga.
   if (is_tga && (bytes.size() < 18 || bytes[1] > 1)) throw damaged_image(where, "it is no TGA");
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels) == 0)
@@ -133,7 +130,7 @@ bool has_16_bits(ByteView bytes) {
 template <class T>
 Texels load_stb_texels(ByteView bytes, const Location& where, bool tga) {
   auto picture = load_stb<T>(bytes, where, tga, 0);
-  // A grey with an alpha becomes a colour with one.
+  // Grey with alpha is expanded to RGBA.
   if (picture.channels == 2) picture = load_stb<T>(bytes, where, tga, 4);
   return {picture.width, picture.height, picture.channels, std::move(picture.values)};
 }

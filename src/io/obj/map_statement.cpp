@@ -11,7 +11,7 @@ namespace {
 
 struct Option {
   std::string_view name;
-  int least, most; ///< arguments; those that may be left out are numbers
+  int least, most; ///< number of arguments; optional ones are numbers
 };
 constexpr Option kOptions[] = {{"-blendu", 1, 1}, {"-blendv", 1, 1},    {"-bm", 1, 1},      {"-boost", 1, 1},
                                {"-cc", 1, 1},     {"-clamp", 1, 1},     {"-imfchan", 1, 1}, {"-mm", 2, 2},
@@ -34,7 +34,7 @@ MapStatement read_map_statement(std::string_view words) {
       std::string_view next = after;
       const std::string_view word = next_word(next);
       const bool number = parse_real(word, values[count]) == RealWord::good;
-      // The last word is the file's name, whatever it looks like.
+      // The last word is the file's name even if it looks like an option or a number.
       if (word.empty() || (count >= option->least && (!number || trimmed(next).empty()))) break;
       after = next;
     }

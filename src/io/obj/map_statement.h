@@ -15,8 +15,8 @@ struct MapStatement {
 };
 
 /// Reads what follows the key. Options have as many arguments as the specification (Wavefront, "Material
-/// library file format", 1995) gives them; v and w of -o, -s and -t may be left out. What begins with a '-'
-/// and is no option is the file's name, as is all that follows the options.
+/// library file format", 1995) gives them; v and w of -o, -s and -t may be left out. A word that begins with
+/// '-' but is not an option begins the file's name, as does any word after the options.
 MapStatement read_map_statement(std::string_view words);
 
 } // namespace candela

@@ -14,9 +14,8 @@ namespace candela {
 
 namespace {
 
-/// tinyobj reads the values; but it takes what is no number for 0 without a word, reads past the meaning of
-/// short lines, fills in defaults for what was not said, and knows no places. So each statement is looked at
-/// here first, and tinyobj gets those that fit.
+/// tinyobj parses the values, but reads invalid numbers as 0, accepts incomplete statements, fills in
+/// defaults and has no locations. So each statement is checked here first, and tinyobj gets only valid ones.
 class MtlParser {
 public:
   MtlParser(const std::string& file, WarningList& warnings) : file_(file), warnings_(warnings) {}
@@ -30,7 +29,7 @@ public:
     constexpr std::string_view kKnown[] = {"Kd", "Ks", "Ke",    "Tf",     "Kt",     "Ns",     "Ni",
                                            "d",  "Tr", "illum", "map_Kd", "map_Ks", "map_Ke", "map_d"};
     if (std::ranges::find(kKnown, key_) == std::end(kKnown)) {
-      // A path tracer has no ambient term, so Ka misses nothing.
+      // A path tracer has no ambient term, so Ka is not needed.
       if (key_ != "Ka" && key_ != "map_Ka")
         warnings_.add(where_, fmt::format("'{}' is ignored", shown(key_)));
     } else if (materials.empty()) {
@@ -46,11 +45,11 @@ public:
 
   std::vector<MtlStatements> materials;
 
-  /// When all lines are read.
+  /// Called after the last line.
   void take_values() {
     std::vector<tinyobj::material_t> read;
     std::map<std::string, int> index;
-    std::string ignored_warnings, ignored_errors; // there is nothing left that it could complain of
+    std::string ignored_warnings, ignored_errors; // all statements have been checked
     std::istringstream text(fitting_);
     tinyobj::LoadMtl(&index, &read, &text, &ignored_warnings, &ignored_errors);
     for (std::size_t i = 0; i < std::min(read.size(), materials.size()); ++i) {
@@ -82,7 +81,7 @@ private:
     materials.emplace_back();
     materials.back().name = name;
     materials.back().where = where_;
-    fitting_ += fmt::format("newmtl {}\n", materials.size()); // a name that cannot be misread
+    fitting_ += fmt::format("newmtl {}\n", materials.size()); // a name without special characters
   }
 
   bool real(std::string_view word, float& value) {
@@ -131,7 +130,7 @@ private:
     } else if (key_ == "d") {
       m.d = value, d_said_ = materials.size();
     } else if (key_ == "Tr") {
-      if (d_said_ == materials.size()) return; // where both stand, d counts
+      if (d_said_ == materials.size()) return; // d overrides Tr
       value = 1 - value, said = "d";
       m.d = value;
     } else {
@@ -156,8 +155,8 @@ private:
   WarningList& warnings_;
   Location where_; ///< of the statement at hand
   std::string_view key_;
-  std::size_t d_said_ = 0; ///< the number of the material that said d
-  std::string fitting_;    ///< the statements that fit
+  std::size_t d_said_ = 0; ///< the number of the last material with d
+  std::string fitting_;    ///< the valid statements
 };
 
 } // namespace

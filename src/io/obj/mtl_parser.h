@@ -12,9 +12,9 @@
 
 namespace candela {
 
-/// What a material says; nothing where it does not.
+/// The statements of a material; empty if missing.
 struct MtlStatements {
-  std::string name; ///< as the file spells it
+  std::string name; ///< as spelled in the file
   Location where;   ///< of the newmtl
   std::optional<vec3> kd, ks, ke, tf;
   std::optional<float> ns, ni, d;
@@ -27,8 +27,7 @@ struct MtlStatements {
   std::optional<Map> map_kd, map_ks, map_ke, map_d;
 };
 
-/// Reads all lines. What does not fit is ignored, statement by statement, and counted in the warnings with
-/// its place.
+/// Reads all lines. Invalid statements are ignored and counted in the warnings with their locations.
 std::vector<MtlStatements> parse_mtl(TextLines& lines, const std::string& file, WarningList& warnings);
 
 } // namespace candela

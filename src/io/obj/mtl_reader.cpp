@@ -13,17 +13,17 @@ namespace candela {
 namespace {
 
 constexpr std::size_t kMaxMtlBytes = std::size_t{64} << 20;
-/// Of the time that a file takes, that of its lines.
+/// Share of the reading time that parsing lines takes.
 constexpr double kLinesShare = 0.5;
 
-/// The row of a material of any type.
+/// A row of any material type.
 FieldInfo material_row(std::string_view key) {
   for (const FieldInfo& row : common_material_fields())
     if (row.key == key) return row;
   return *std::ranges::find(material_choice_fields(), key, &FieldInfo::key);
 }
 
-/// Conversion of one material, with the corrections that it needs.
+/// Conversion of one material, with corrections.
 class Converter {
 public:
   Converter(const MtlStatements& said, MtlDialect dialect, WarningList& warnings)
@@ -67,17 +67,18 @@ public:
   }
 
 private:
-  /// The value of a statement that a map may multiply.
+  /// The value of a statement, which a map may multiply.
   vec3 reflected_or_sent(std::string_view row, std::string_view key, const std::optional<vec3>& said,
                          const std::optional<MtlStatements::Map>& map, vec3 standard) {
     if (!said) return map ? vec3(1) : standard;
     const vec3 value = clamped(row, key, *said);
     if (!map || !is_black(value)) return value;
-    warnings_.add(said_.where, fmt::format("{0} is black beside map_{0}: it is taken for 1", key));
+    warnings_.add(said_.where,
+                  fmt::format("{0} is black although there is a map_{0}: it is taken for 1", key));
     return vec3(1);
   }
 
-  /// A map may make room for the diffuse part here and there, so that it is reduced where it is looked up.
+  /// With maps the sum varies over the surface, so the diffuse part is reduced at lookup.
   void conserve(vec3& diffuse, vec3 specular, vec3 ks) {
     if (said_.map_ks || !conserve_energy(diffuse, specular)) return;
     warnings_.add(said_.where, specular == ks
@@ -85,7 +86,7 @@ private:
                                    : "Kd leaves no room for the highlight: it is a little reduced");
   }
 
-  /// What Ks is to be multiplied with.
+  /// The factor of Ks.
   float highlight(vec3 kd) const {
     return dialect_ == MtlDialect::cs123 || is_black(kd) ? 1.0f : kPlasticSpecular;
   }
@@ -96,7 +97,7 @@ private:
       out.ior = clamped("ior", "Ni", vec3(*said_.ni)).x;
     else
       warnings_.add(said_.where, fmt::format("glass without Ni: {} is taken", out.ior.value));
-    if (!said_.tf || *said_.tf == vec3(1)) return out; // what exporters write for clear
+    if (!said_.tf || *said_.tf == vec3(1)) return out; // exporters write this for clear glass
     const vec3 tf = *said_.tf;
     if (dialect_ == MtlDialect::cs123)
       out.absorption = clamped("absorption", "Tf", tf);
@@ -111,7 +112,7 @@ private:
     return out;
   }
 
-  /// The value within the range of the material's row.
+  /// Clamps the value to the range of the material's row.
   vec3 clamped(std::string_view row_key, std::string_view key, vec3 value) {
     const FieldInfo row = material_row(row_key);
     vec3 inside = glm::clamp(value, static_cast<float>(row.minimum), static_cast<float>(row.maximum));
@@ -130,7 +131,7 @@ private:
 
 bool conserve_energy(vec3& diffuse, vec3 specular) {
   vec3 most = glm::max(vec3(1) - specular, vec3(0));
-  // Sums like 0.3 + 0.7 may exceed 1 by a rounding: corrected, but not worth a warning.
+  // Sums like 0.3 + 0.7 may exceed 1 by rounding: corrected without a warning.
   bool exceeds = glm::any(glm::greaterThan(diffuse, most + 1e-5f));
   diffuse = glm::min(diffuse, most);
   return exceeds;

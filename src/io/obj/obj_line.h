@@ -11,7 +11,7 @@ namespace candela {
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// Cuts the first word off `rest` and returns it; empty at the end of the line.
+/// Removes the first word from `rest` and returns it; empty at the end of the line.
 inline std::string_view next_word(std::string_view& rest) {
   std::size_t begin = 0;
   while (begin < rest.size() && is_blank(rest[begin])) ++begin;
@@ -22,17 +22,17 @@ inline std::string_view next_word(std::string_view& rest) {
   return word;
 }
 
-/// What a message quotes of a word.
+/// A word, shortened for messages.
 inline std::string shortened(std::string_view word) { return std::string(word.substr(0, 40)); }
 
 enum class RealWord { good, no_number, not_finite };
 
-/// Reads a word as a number that a float can hold. "nan" and "inf" are not finite; too small is 0. Leaves
-/// `value` alone unless it is good.
+/// Parses a number within the range of float; "nan" and "inf" are not finite, too small numbers are 0.
+/// `value` is changed only on success.
 inline RealWord parse_real(std::string_view word, double& value) {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
   if (word.empty() || word.front() == '+') return RealWord::no_number;
-  double read = 0; // from_chars leaves it 0 below the range of a double
+  double read = 0; // from_chars leaves 0 below the range of a double
   auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), read);
   if (status == std::errc::invalid_argument || end != word.data() + word.size()) return RealWord::no_number;
   if (status == std::errc::result_out_of_range && word.find("e-") == std::string_view::npos &&

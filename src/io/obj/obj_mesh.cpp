@@ -13,8 +13,8 @@ namespace {
 
 using glm::dvec3;
 
-/// Numbers corners in the order in which they come, equal ones alike. Open addressing with linear probing: a
-/// large model has millions of corners, and a node for each would take more memory than the mesh.
+/// Assigns indices to distinct corners in the order of their first use. A hash table with open addressing and
+/// linear probing: large models have millions of corners, and nodes would take more memory than the mesh.
 class CornerNumbers {
 public:
   explicit CornerNumbers(ProgressPart& progress) : progress_(progress) {}
@@ -38,7 +38,7 @@ private:
     return hash_combine(hash64(bits(c.v) << 32 | bits(c.vt)), bits(c.vn)) & (slots_.size() - 1);
   }
 
-  /// Twice as many slots. Of hundreds of millions that takes seconds, in which the wish to stop is heard.
+  /// Doubles the number of slots. For hundreds of millions that takes seconds, so it checks for cancellation.
   void grow() {
     constexpr std::size_t kStride = std::size_t{1} << 22;
     const std::size_t size = std::max<std::size_t>(64, 2 * slots_.size());
@@ -58,7 +58,7 @@ private:
 
   ProgressPart& progress_;
   BlockVector<ObjCorner> corners_;
-  std::vector<std::uint32_t> slots_; ///< a power of two of them, at most half of them taken
+  std::vector<std::uint32_t> slots_; ///< a power of two, at most half of them in use
 };
 
 class MeshAssembly {
@@ -119,7 +119,7 @@ private:
     }
   }
 
-  /// A face that cannot be made.
+  /// Reports a face that is dropped.
   void lose(const ObjFace& face) {
     lost_faces_ = true;
     warnings_.add({file_, face.line, 0}, "faces that use vertices that are not there are dropped");
@@ -128,7 +128,7 @@ private:
         loss_ = bad_obj_index({file_, face.line, 0}, "v", v + 1, c_.positions.size(), false);
   }
 
-  /// The index if there is something that it means.
+  /// The index, if it is valid.
   static int attribute(int index, std::size_t count) {
     return index >= 0 && static_cast<std::size_t>(index) < count ? index : ObjCorner::kNone;
   }
@@ -162,7 +162,7 @@ private:
       warnings_.add({file_, face.line, 0}, "triangles without area are dropped");
       return;
     }
-    // Braces: the order in which vertices are numbered must not depend on the compiler.
+    // Braces guarantee the order of evaluation, on which vertex indices depend.
     mesh_.triangles.push_back(
         uvec3{vertices_.number(corners_[a]), vertices_.number(corners_[b]), vertices_.number(corners_[c])});
     mesh_.material_slots.push_back(face.slot);
@@ -190,13 +190,13 @@ private:
   const std::string& file_;
   WarningList& warnings_;
   ProgressPart& progress_;
-  double share_; ///< of the progress, so far
+  double share_; ///< of the progress so far
   dvec3 lower_{std::numeric_limits<double>::infinity()}, upper_{-std::numeric_limits<double>::infinity()};
   std::size_t most_triangles_ = 0;
   bool has_normals_ = false, has_uvs_ = false, lost_faces_ = false;
   std::optional<Error> loss_;
   CornerNumbers vertices_;
-  std::vector<ObjCorner> corners_; ///< of the face at hand
+  std::vector<ObjCorner> corners_; ///< of the current face
   std::vector<vec3> outline_;
   std::vector<std::array<int, 3>> triangles_;
   Mesh mesh_;
@@ -205,7 +205,7 @@ private:
 } // namespace
 
 glm::dvec3 mesh_origin(dvec3 lower, dvec3 upper) {
-  // A float has 24 bits. At this many times its size from the origin, a mesh keeps 19 of them.
+  // A float has 24 bits. At this distance from the origin, relative to its size, a mesh keeps 19 of them.
   constexpr double kFar = 32;
   const dvec3 most = glm::max(glm::abs(lower), glm::abs(upper));
   const double far = std::max({most.x, most.y, most.z}), size = glm::length(upper - lower);

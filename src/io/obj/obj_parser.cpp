@@ -15,7 +15,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 constexpr std::string_view kBrokenFace = "faces with a corner that is nowhere are dropped";
 
-/// Some programs write numbers as their user's language has them.
+/// Some programs write decimal commas, depending on the locale.
 RealWord parse_real_or_decimal_comma(std::string_view word, double& value, bool& comma) {
   RealWord state = parse_real(word, value);
   const auto at = word.find(',');
@@ -54,8 +54,7 @@ void ObjParser::line(std::string_view text, int number) {
   std::string_view rest = text;
   std::string_view key = next_word(rest);
   if (key.empty() || key.front() == '#') return;
-  if (key.front() == 'v' ||
-      key.front() == 'f') { // numbers: a comment may follow; names may have a '#' in them
+  if (key.front() == 'v' || key.front() == 'f') { // a comment may follow numbers; names may contain a '#'
     rest = rest.substr(0, rest.find('#'));
     if (key == "v") return vertex(rest);
     double n[3] = {0, 0, 0};
@@ -77,7 +76,7 @@ void ObjParser::line(std::string_view text, int number) {
     warnings_.add(at(key), fmt::format("'{}' is ignored", utf8_name(shortened(key))));
 }
 
-/// Reads the first numbers of `words`; zeros, and false, where one of the first `at_least` is none.
+/// Parses the first numbers of `words`; zeros, and false, if one of the first `at_least` is invalid.
 template <std::size_t N>
 bool ObjParser::reals(std::string_view key, std::string_view words, std::size_t at_least, double (&out)[N]) {
   bool comma = false;
@@ -142,7 +141,8 @@ void ObjParser::face(std::string_view key, std::string_view words) {
   contents.corners.truncate(first);
 }
 
-/// v, v/vt, v//vn or v/vt/vn; parts behind the first may be empty. What is wrong if its vertex is nowhere.
+/// Parses v, v/vt, v//vn or v/vt/vn; parts after the first may be empty. Returns the error if its vertex is
+/// invalid.
 std::optional<Error> ObjParser::corner(std::string_view word, ObjCorner& out) const {
   std::string_view rest = word;
   int* const parts[] = {&out.v, &out.vt, &out.vn};
@@ -157,7 +157,7 @@ std::optional<Error> ObjParser::corner(std::string_view word, ObjCorner& out) co
                      "write v/vt/vn");
 }
 
-/// What is wrong is told of words that are no index, and of positions; other attributes may be missing.
+/// Returns an error for words that are not indices, and for invalid positions; other attributes are optional.
 std::optional<Error> ObjParser::index(Kind kind, std::string_view digits, std::string_view word,
                                       int& out) const {
   std::string_view magnitude = digits;
@@ -168,7 +168,7 @@ std::optional<Error> ObjParser::index(Kind kind, std::string_view digits, std::s
                        "write v, v/vt, v//vn or v/vt/vn with integers");
   const std::size_t counts[] = {contents.positions.size(), contents.uvs.size(), contents.normals.size()};
   const auto count = static_cast<int>(counts[kind]);
-  constexpr std::size_t kMostDigits = 9; // what fits an int for certain; the file's cap holds fewer vertices
+  constexpr std::size_t kMostDigits = 9; // always fits an int; the file's limit allows fewer vertices
   int value = 0;
   const bool negative = digits.front() == '-', huge = magnitude.size() > kMostDigits;
   if (!huge) std::from_chars(magnitude.data(), magnitude.data() + magnitude.size(), value);

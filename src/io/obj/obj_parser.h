@@ -14,35 +14,34 @@
 
 namespace candela {
 
-/// One corner of a polygon: indices from 0. They may run ahead of the vertices they mean, and beyond the
-/// last.
+/// One corner of a polygon: indices from 0. They may refer to later vertices, or beyond the last.
 struct ObjCorner {
   int v = kNone, vt = kNone, vn = kNone;
   static constexpr int kNone = -1;
-  static constexpr int kMissing = -2; ///< it was given, but there is nothing that it could mean
+  static constexpr int kMissing = -2; ///< given, but invalid
   bool operator==(const ObjCorner&) const = default;
 };
 
 struct ObjFace {
-  std::uint32_t first; ///< in ObjContents::corners, which the file's cap keeps in range
+  std::uint32_t first; ///< in ObjContents::corners, whose size the file's limit bounds
   int count;
   std::uint32_t slot;
   int line;
 };
 
 struct ObjContents {
-  BlockVector<glm::dvec3> positions; ///< NaN where the file has no number
+  BlockVector<glm::dvec3> positions; ///< NaN if invalid in the file
   BlockVector<vec3> normals;         ///< zero there
   BlockVector<vec2> uvs;             ///< zero there
   BlockVector<ObjCorner> corners;
   BlockVector<ObjFace> faces;
   std::vector<std::string> slot_names;     ///< in UTF-8
-  std::vector<std::string> slot_materials; ///< the same as the file spells them
-  std::optional<Error> first_loss;         ///< what is wrong where the first vertex or face was lost
+  std::vector<std::string> slot_materials; ///< the same as spelled in the file
+  std::optional<Error> first_loss;         ///< the error of the first lost vertex or face
 };
 
-/// Reads the statements. What does not fit costs its own vertex, attribute or face, and is counted in the
-/// warnings. Names of materials and libraries are handed on whole: they may have spaces.
+/// Parses the statements. Invalid ones only affect their own vertex, attribute or face, and are counted in
+/// the warnings. Names of materials and libraries may contain spaces.
 class ObjParser {
 public:
   explicit ObjParser(std::string file, WarningList& warnings) : file_(std::move(file)), warnings_(warnings) {}
@@ -71,7 +70,7 @@ private:
   std::string_view line_;
   int number_ = 0;
   std::map<std::string, std::uint32_t, std::less<>> slots_;
-  std::string material_; ///< the current one's name, as in the file
+  std::string material_; ///< name of the current material, as in the file
   std::optional<std::uint32_t> slot_;
 };
 

@@ -15,7 +15,7 @@ namespace candela {
 namespace {
 
 constexpr std::size_t kMaxObjBytes = 0x7fffffff;
-/// Of the time that a file takes, that of its lines; the rest makes vertices and triangles of them.
+/// Share of the reading time that parsing lines takes; the rest converts them to vertices and triangles.
 constexpr double kLinesShare = 0.7;
 
 /// The material libraries that an OBJ names.
@@ -24,7 +24,7 @@ public:
   Libraries(const FoundFile& obj, const PathPolicy& policy, MtlDialect dialect, WarningList& warnings)
       : obj_(obj), policy_(policy), dialect_(dialect), warnings_(warnings) {}
 
-  /// "mtllib a b.mtl" is one name with a space or two names: the specification means two, exporters mean one.
+  /// "mtllib a b.mtl" is two names according to the specification, but exporters write one name with a space.
   void read(std::string_view names, const Location& where) {
     if (names.empty()) return warnings_.add(where, "mtllib names no file");
     if (try_read(names, where)) return;
@@ -40,7 +40,7 @@ public:
     } while (!names.empty());
   }
 
-  /// Once all of them are read: where one is missing, or none was named, that of the OBJ's own name is meant.
+  /// Called after all of them: if one is missing, or none was named, the library with the OBJ's name is used.
   void read_namesake() {
     const std::string name = std::filesystem::path(obj_.shown).stem().string() + ".mtl";
     const Location where = where_missing_.value_or(Location{obj_.shown});
@@ -80,7 +80,7 @@ ObjModel read_obj(const FoundFile& file, const PathPolicy& policy, MtlDialect di
   parser.on_mtllib = [&](std::string_view names, const Location& where) { libraries.read(names, where); };
   TextLines lines(text, progress, kLinesShare);
   while (lines.next()) parser.line(lines.line(), lines.number());
-  std::string().swap(text); // the largest of all that is in memory here
+  std::string().swap(text); // the largest allocation here
   ObjContents& contents = parser.contents;
   auto is_unknown = [&](const std::string& name) {
     return !name.empty() && !libraries.library.contains(name);

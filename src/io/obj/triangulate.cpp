@@ -15,7 +15,7 @@ std::vector<dvec2> project(std::span<const vec3> corners) {
   dvec3 normal(0), origin(corners[0]);
   for (std::size_t i = 1; i + 1 < corners.size(); ++i)
     normal += glm::cross(dvec3(corners[i]) - origin, dvec3(corners[i + 1]) - origin);
-  // Dropping the axis that the normal is nearest to keeps the orientation test and needs no rotation.
+  // Projecting along the normal's largest axis preserves orientation without a rotation.
   dvec3 n = glm::abs(normal);
   int axis = n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
   int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -40,13 +40,13 @@ public:
     while (left > 3) {
       if (!ear_[at(i)] && tried < left) {
         i = next_[at(i)], ++tried;
-        continue; // a polygon that crosses itself may have no ear: after a round, any corner is cut
+        continue; // a self-intersecting polygon may have no ear: after a full round, cut any corner
       }
       int a = previous_[at(i)], c = next_[at(i)];
       triangles.push_back({a, i, c});
       next_[at(a)] = c, previous_[at(c)] = a;
       ear_[at(a)] = is_ear(a), ear_[at(c)] = is_ear(c);
-      // Going on two corners further fans less than staying, so that the triangles are less thin.
+      // Continuing two corners further avoids fans of thin triangles.
       i = next_[at(c)], tried = 0, --left;
     }
     triangles.push_back({previous_[at(i)], i, next_[at(i)]});
@@ -62,7 +62,7 @@ private:
     if (whole <= 0) return false;
     for (int k = next_[at(ic)]; k != ia; k = next_[at(k)]) {
       dvec2 q = p_[at(k)];
-      // Bridges to holes visit a point twice: its twin does not lie inside.
+      // Bridges to holes visit a point twice: a duplicate does not count as inside.
       if (q == a || q == b || q == c) continue;
       if (area(a, b, q) >= 0 && area(b, c, q) >= 0 && area(c, a, q) >= 0) return false;
     }

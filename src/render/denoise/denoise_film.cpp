@@ -8,7 +8,7 @@ namespace candela {
 
 namespace {
 
-/// Samples of features a pixel: more cost more than they mend, even where the lens blurs.
+/// Most samples of features per pixel: more hardly improve the result, even with lens blur.
 constexpr int kFeatureSamples = 32;
 
 } // namespace

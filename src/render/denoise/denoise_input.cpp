@@ -91,7 +91,7 @@ std::vector<float> variance_scale(const Halves& h, const Planes& smooth) {
   const std::size_t n = smooth.size();
   Planes measured(smooth.width, smooth.height, 3), told = measured;
   for (std::size_t i = 0; i < n; ++i) {
-    // Relative to the pixel's own level, lest one bright pixel decides for all around it.
+    // Relative to the pixel's level, so that one bright pixel does not dominate its neighbourhood.
     float unit = 1 / (smooth.values[i] + smooth.values[n + i] + smooth.values[2 * n + i] + kSmallest);
     for (std::size_t k = i; k < 3 * n; k += n) {
       measured.values[k] = 0.25f * unit * sqr(h.mean[0].values[k] - h.mean[1].values[k]);

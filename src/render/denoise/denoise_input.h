@@ -1,5 +1,5 @@
 #pragma once
-// What comes before the denoiser's regression: its inputs, filtered.
+// Filtering of the inputs of the denoiser's regression.
 
 #include "render/denoise/denoise_tile.h"
 #include "render/denoise/denoiser.h"

@@ -6,8 +6,8 @@ namespace candela::denoising {
 
 namespace {
 
-/// How unlike the patches of pixels may be that are fitted together: smaller keeps more noise, larger blurs
-/// more. The papers' sharper choice.
+/// Tolerated dissimilarity of patches that are fitted together: smaller values keep more noise, larger ones
+/// blur more. The papers' sharper choice.
 constexpr float kColorK = 0.5f;
 /// A little of the identity is added to the normal equations: relative to a term's own sum of squares, and
 /// absolute, as a variance that features have by rounding. A term that the others explain but for

@@ -1,5 +1,5 @@
 #pragma once
-// Takes the noise out of a rendered image, at the price of a bias: display only, and named wherever it shows.
+// Denoises a rendered image, with a bias: for display only, and labelled wherever it is shown.
 
 #include "imaging/image.h"
 
@@ -29,7 +29,7 @@ struct DenoiseOptions {
   const std::atomic<bool>* stop = nullptr; ///< set from another thread, ends the work within milliseconds
 };
 
-/// The image without its noise; nothing where it was stopped. The same bits for any number of threads.
+/// The denoised image; nothing if it was stopped. The same bits for any number of threads.
 ///
 /// First-order regression of the colour on the features, weighted by non-local means of the colour, the two
 /// halves crossed: Bitterli et al. 2016, "Nonlinearly Weighted First-order Regression for Denoising Monte

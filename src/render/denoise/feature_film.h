@@ -1,6 +1,6 @@
 #pragma once
 // The features that guide the denoiser: per pixel, the first surface that is not specular, seen along the
-// same camera rays as the image. It is gathered beside the render, which therefore pays nothing for it.
+// same camera rays as the image. It is gathered independently of the render, which has no cost for it.
 
 #include "render/denoise/denoiser.h"
 #include "render/world/render_scene.h"

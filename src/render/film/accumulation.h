@@ -1,7 +1,7 @@
 #pragma once
-// The samples of a picture as they come in: the one thing that the window, the command line and the benches
-// advance. A value: it can be copied, saved as its state, continued by another renderer, and merged with
-// samples that were rendered elsewhere.
+// The accumulated samples of a picture, advanced by the window, the command line and the benchmarks. A value:
+// it can be copied, saved as its state, continued by another renderer, and merged with samples that were
+// rendered elsewhere.
 
 #include "render/film/pass_renderer.h"
 #include "render/film/sample_schedule.h"
@@ -13,10 +13,10 @@ namespace candela {
 
 struct AccumulationOptions {
   CropWindow window{}; ///< of the frame; empty: all of it
-  /// The first pass visits pixels so far apart (a power of two), then those between them, so that there is a
-  /// whole picture early. 1: all at once.
+  /// The first pass visits pixels at this distance (a power of two), then those between them, for an early
+  /// complete picture. 1: all at once.
   int coarsest = 1;
-  bool components = false; ///< keep the emitted, direct and indirect parts apart, too
+  bool components = false; ///< also store the emitted, direct and indirect components separately
   /// Sample indices begin here, where another accumulation holds those before.
   std::uint32_t first_sample = 0;
   /// The time limit does not end the first pass.

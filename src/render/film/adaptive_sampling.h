@@ -1,12 +1,12 @@
 #pragma once
-// Sampling that stops in blocks of pixels whose error is small enough (adaptive.error).
+// Adaptive sampling, which stops in blocks of pixels with a small error (adaptive.error).
 
 #include "render/film/sample_queue.h"
 
 namespace candela {
 
-/// Side of the blocks of pixels that stop together: one pixel's own variance is too rough an estimate (those
-/// that were lucky would stop).
+/// Side of the blocks of pixels that stop together: one pixel's variance is too inaccurate (pixels with a low
+/// estimate would stop too early).
 inline constexpr int kAdaptiveBlock = 8;
 
 /// Not the levels of a coarse first pass.

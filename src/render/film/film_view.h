@@ -1,5 +1,5 @@
 #pragma once
-// What a film shows: its means, or statistics of its samples.
+// Views of a film: its means, or statistics of its samples.
 
 #include "render/film/film.h"
 #include "scene/document.h"

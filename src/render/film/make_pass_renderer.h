@@ -1,5 +1,5 @@
 #pragma once
-// Which pass renderer renders: one that is better where it can, else the CPU.
+// Selection of the pass renderer: a better one if available, else the CPU.
 
 #include "render/film/pass_renderer.h"
 

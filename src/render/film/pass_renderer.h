@@ -1,6 +1,6 @@
 #pragma once
-// What renders a pass, the unit of work of every render. The CPU does (cpu_pass_renderer.h); a GPU or other
-// machines implement the same interface.
+// The interface for rendering a pass, the unit of work of every render. The CPU implements it
+// (cpu_pass_renderer.h); a GPU or other machines could, too.
 
 #include "core/stop_condition.h"
 #include "render/camera/camera_model.h"

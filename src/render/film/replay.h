@@ -1,5 +1,5 @@
 #pragma once
-// One sample again, from its indices alone.
+// Repeats one sample from its indices.
 
 #include "render/film/pass_renderer.h"
 #include "render/film/pixel_sampler.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Which samples of which pixels.
+// A range of samples and pixels.
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 #pragma once
-// Which samples of which part of the film come next, when parts are ahead of others: a region that the user
-// looks at accumulates alone, and once it is given up the rest catches up, so that every pixel gets each
-// sample index once and the image ends as the headless one, bit for bit.
+// The next samples of parts of the film with different progress: a region selected by the user accumulates
+// alone, and when it is reset the rest catches up, so that every pixel gets each sample index once and the
+// final image equals the headless one, bit for bit.
 
 #include "render/film/sample_range.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which light a primitive is. Of the billions of triangles that instances place, few shine.
+// Maps primitives to lights. Of the billions of triangles in instances, few emit.
 
 #include <cstddef>
 #include <cstdint>

@@ -120,7 +120,7 @@ void LightSampleLanes::set_area(std::size_t i, float density, vec3 place, vec3 e
 }
 
 void sample_lights(std::span<const LightQuery> queries, LightSampleLanes& samples) {
-  // Only these two are worth vector code; all others are sampled one by one.
+  // Only these two are vectorised; all others are sampled one by one.
   RectangleQueue rectangles;
   SphereQueue spheres;
   for (const LightQuery& query : queries)

@@ -1,5 +1,5 @@
 #pragma once
-// Samples of many lights, side by side.
+// Vectorised samples of many lights.
 
 #include "core/lanes.h"
 #include "lights/light.h"

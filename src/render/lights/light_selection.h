@@ -1,5 +1,5 @@
 #pragma once
-// Which light next-event estimation samples.
+// Light selection for next-event estimation.
 
 #include "render/lights/light_tree.h"
 #include "sampling/distribution.h"
@@ -7,9 +7,9 @@
 
 namespace candela {
 
-/// Choice among some of a scene's lights, as path.light_choice has it: in proportion to power, or by what
-/// they may contribute to the shading point. Lights of which too many are unbounded (kMaxUnboundedLights) are
-/// chosen by power in any case.
+/// Selects among some of a scene's lights, according to path.light_choice: in proportion to power, or to the
+/// estimated contribution to the shading point. Lights of which too many are unbounded (kMaxUnboundedLights)
+/// are chosen by power in any case.
 class LightSelection {
 public:
   LightSelection() = default;

@@ -1,5 +1,5 @@
 #pragma once
-// Choosing a light by what it may contribute to a point.
+// Light selection by estimated contribution to a point.
 
 #include "core/progress.h"
 #include "lights/light.h"
@@ -17,15 +17,16 @@ struct LightChoice {
   float u; ///< what is left of the random number, uniform in [0, 1) again
 };
 
-/// A tree over lights (Conty Estevez & Kulla 2018; pbrt-v4, section 12.6.3), eight branches a node: a draw
-/// goes down in proportion to a bound-like estimate of each branch's irradiance, eight side
-/// by side by the vector unit; up to eight lights have each its own. Unbounded lights (those at no place, or
-/// that fall off in a way of their own) are estimated one by one beside the root's branches. Where the BSDF
-/// is glossy, what counts is how near a branch may come to its lobe's axis: on Veach's plates
-/// (tests/bench/versus_cycles) relMSE x spp falls from 0.064 to 0.014.
+/// A tree over lights (Conty Estevez & Kulla 2018; pbrt-v4, section 12.6.3), eight branches a node: sampling
+/// descends in proportion to a conservative estimate of each branch's irradiance, eight at a time in vector
+/// code; up to eight lights have a branch each. Unbounded lights (without a place, or with another fall-off)
+/// are estimated one by one together with the root's branches. For glossy BSDFs, the estimate depends on the
+/// least angle between a branch and the lobe's axis: on Veach's plates (tests/bench/versus_cycles) relMSE x
+/// spp falls from 0.064 to 0.014.
 ///
-/// Every light that contributes to a point has probability: what is left out is wholly on a side from which
-/// the point accepts no light (LightSamplingContext::accepts), or faces away.
+/// Every light that contributes to a point has a probability above 0: only lights are left out that face
+/// away, or that are completely on a side from which the point accepts no light
+/// (LightSamplingContext::accepts).
 class LightTree {
 public:
   /// Of lights that light_bounds() has nothing for.

@@ -1,4 +1,4 @@
-// Input latency: what is measured, and the script that measures.
+// Input latency: the meter, and the script of the benchmark.
 
 #include "app/bench/bench_script.h"
 #include "app/bench/interaction_bench.h"
@@ -30,7 +30,7 @@ TEST(InteractionMeter, TimesTheFirstAndTheFullPictureOfAnInput) {
   const MeterClock::time_point start{};
   meter.submitted(2, start);
   meter.shown(frame_of(1, 1, 7), start + 5ms);
-  EXPECT_TRUE(meter.waiting()) << "a picture of before the input is none of it";
+  EXPECT_TRUE(meter.waiting()) << "a picture from before the input does not count";
   meter.shown(frame_of(2, 8, 0), start + 10ms);
   meter.shown(frame_of(2, 4, 0), start + 20ms);
   ASSERT_EQ(meter.interactions().size(), 1u);

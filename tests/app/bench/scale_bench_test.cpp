@@ -1,4 +1,4 @@
-// `candela bench scale`: what it writes, what it counts, what it says.
+// `candela bench scale`: the generated files, the measurements, the report.
 
 #include "app/bench/scale_report.h"
 #include "app/bench/scale_scenes.h"

@@ -25,8 +25,8 @@ vec3 area_vector(const Mesh& mesh, uvec3 t) {
   return glm::cross(mesh.positions[t.y] - mesh.positions[t.x], mesh.positions[t.z] - mesh.positions[t.x]);
 }
 
-/// What every generated mesh must be: whole attributes, unit normals, triangles with an area that face the
-/// way of their normals, no two alike.
+/// Requirements on every generated mesh: complete attributes, unit normals, distinct triangles with an area
+/// and with the orientation of their normals.
 void expect_sound(const Mesh& mesh) {
   ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
   ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
@@ -41,7 +41,7 @@ void expect_sound(const Mesh& mesh) {
     distinct.insert(corners(mesh, t));
   }
   EXPECT_EQ(distinct.size(), mesh.triangles.size());
-  // Where an edge is sharper than the mesh is fine, the mean of three normals may look away.
+  // At edges that the mesh does not resolve, the mean of three normals may point to the other side.
   EXPECT_GT(static_cast<double>(facing), 0.99 * static_cast<double>(mesh.triangles.size()));
 }
 
@@ -79,7 +79,7 @@ TEST(ScaleModels, StonesAreClosed) {
   const Mesh mesh = stone_mesh(12, 7);
   EXPECT_EQ(mesh.triangles.size(), 12u * 12 * 12);
   expect_sound(mesh);
-  // Faces of the cube meet in points that are computed twice, from other formulae.
+  // Shared points of the cube's faces are computed twice, by different formulas.
   constexpr float kWeld = 1e-4f;
   auto welded = [&](std::uint32_t i) {
     const vec3 p = glm::round(mesh.positions[i] / kWeld);

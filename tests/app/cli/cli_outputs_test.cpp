@@ -1,4 +1,4 @@
-// What the program writes: refused before the work where it cannot be, and not lost afterwards.
+// Outputs of the program: checked before the work, and not lost afterwards.
 
 #include "app/program.h"
 #include "io/images/image_file.h"
@@ -20,7 +20,7 @@ protected:
   std::string render(const std::string& more) {
     return fmt::format("render '{}' --size 8x6 --spp 1 {}", scene, more);
   }
-  /// Ends how, with a stdout that is a pipe whose reader is gone.
+  /// The exit status with a stdout that is a pipe without a reader.
   int status_without_a_reader(const std::vector<std::string>& arguments, bool ignored) {
     int ends[2];
     if (::pipe(ends) != 0) return -1;
@@ -48,7 +48,7 @@ TEST_F(CliOutputs, AreLookedAtBeforeTheScene) {
   fs::create_directory(path("folder.json"));
   test::write_text(path("a.txt"), "x");
   ASSERT_EQ(run(render("-o pic.png")).code, 0);
-  // The scene or picture to read is missing as well, which is only seen afterwards (3).
+  // The input is missing as well, which is detected later (exit code 3).
   for (const char* arguments :
        {"render gone.json -o no/such/a.png", "render gone.json -o a.png -o no/such/b.exr",
         "render gone.json -o folder.png", "render gone.json -o a.png --stats no/such/s.json",
@@ -79,8 +79,8 @@ TEST_F(CliOutputs, AJobsOwnAreLookedAtToo) {
   test::write_text(path("job.ini"),
                    fmt::format("[IO]\nscene = {}\noutput = no/such/a.png\n[Settings]\n", scene));
   fs::copy(scene, path("box.json"));
-  const Outcome o =
-      run("render job.ini --spp 0 --allow-outside"); // without a stop the render would end with 2
+  const Outcome o = run(
+      "render job.ini --spp 0 --allow-outside"); // without a stopping criterion the render would end with 2
   EXPECT_EQ(o.code, 5) << o.err;
 }
 
@@ -92,7 +92,7 @@ TEST_F(CliOutputs, AWrongReferenceIsRefusedBeforeTheWork) {
     EXPECT_EQ(o.code, 3);
     EXPECT_NE(o.err.find(reference), std::string::npos) << o.err;
   }
-  // A render that has nowhere to stop would end with 2.
+  // A render without a stopping criterion would end with 2.
   for (const char* shape : {"--size 9x6", "--size 8x6 --crop 0,0,7,6"}) {
     const Outcome o = run(fmt::format("render '{}' {} --spp 0 -o a.exr --reference ref.exr", scene, shape));
     EXPECT_EQ(o.code, 3) << o.err;
@@ -123,7 +123,7 @@ TEST_F(CliOutputs, DoNotOverwriteEachOtherNorWhatIsRead) {
   }
   EXPECT_EQ(text("ref.exr"), before);
   EXPECT_EQ(text("box.json"), test::read_text(scene));
-  // A picture may be made again in its own place; streams may take several outputs.
+  // A picture may be rendered again over itself; streams may take several outputs.
   EXPECT_EQ(run("render pic.png -o pic.png").code, 0);
   const Outcome both = run(render("-o a.exr --stats /dev/stdout --reference ref.exr"));
   ASSERT_EQ(both.code, 0) << both.err;
@@ -153,7 +153,7 @@ TEST_F(CliOutputs, AFullStdoutIsAnError) {
       EXPECT_EQ(o.code, 5) << arguments << ' ' << out << "\n" << o.err;
       EXPECT_NE(o.err.find("candela: stdout: output: it cannot be written"), std::string::npos) << o.err;
     }
-  // Results on stdout are no reason to lose the picture, or to write into it.
+  // Results on a closed stdout must neither lose the picture nor be written into it.
   EXPECT_EQ(text("b.exr"), text("a.exr"));
   EXPECT_EQ(run(render("-o c.exr"), "", "true", ">&- 2>&- <&-").code, 0);
   EXPECT_EQ(text("c.exr"), text("a.exr"));
@@ -171,7 +171,7 @@ TEST_F(CliOutputs, AReaderThatLeavesEndsItQuietly) {
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 5) << arguments[0] << ' ' << status;
     EXPECT_NE(text("err.txt").find("Broken pipe"), std::string::npos) << text("err.txt");
   }
-  // Who follows the progress through a pipe and leaves does not take the picture along.
+  // A reader of the progress that ends early must not end the render.
   ASSERT_EQ(run("settings", "", "true", "| true").code, 0);
   ASSERT_EQ(run(render("-o a.png --set 'no.such=1' || true"), "", "true", "2>&1 | true").code, 0);
   const std::string both =
@@ -257,7 +257,7 @@ TEST_F(CliOutputs, OddCommandLinesAreAnsweredPlainly) {
   EXPECT_EQ(empty.code, 5);
   EXPECT_NE(empty.err.find("the name is empty: name a file"), std::string::npos) << empty.err;
   EXPECT_EQ(run("help").out, run("--help").out);
-  // The last of options that contradict each other counts; - is stdout.
+  // The last of contradicting options is used; - is stdout.
   const Outcome last = run(some + "--size 5x4 --seed 1 --seed 2 --stats -");
   ASSERT_EQ(last.code, 0) << last.err;
   EXPECT_EQ(nlohmann::json::parse(last.out)["seed"], 2);

@@ -1,4 +1,4 @@
-// The program's commands, as users start them.
+// The program's commands, run as processes.
 
 #include "app/program.h"
 #include "io/images/image_file.h"
@@ -21,7 +21,7 @@ namespace {
 
 std::string file_text(const std::string& path) { return test::read_text(path); }
 
-/// Whether the process catches the signal, as the kernel tells.
+/// Whether the process catches the signal, according to the kernel.
 bool catches(pid_t process, int signal) {
   std::istringstream status(file_text(fmt::format("/proc/{}/status", process)));
   for (std::string line; std::getline(status, line);)

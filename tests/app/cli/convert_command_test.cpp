@@ -1,4 +1,4 @@
-// `candela convert`: whatever it reads renders the same, bit for bit, from what it writes.
+// `candela convert`: the converted scene renders to the same bits.
 
 #include "app/cli/convert_command.h"
 #include "core/error.h"

@@ -1,4 +1,4 @@
-// `candela lab` as its users start it.
+// `candela lab`, run as a process.
 
 #include "lab/lessons.h"
 #include "scene/document.h"

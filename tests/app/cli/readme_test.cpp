@@ -1,5 +1,4 @@
-// The documents' generated tables are what the program generates, their list of keys is complete, their links
-// resolve.
+// The documents: generated tables are up to date, the list of keys is complete, links resolve.
 
 #include "app/cli/scene_tables.h"
 #include "app/cli/settings_command.h"
@@ -59,7 +58,7 @@ std::vector<std::string> documents() {
   return out;
 }
 
-/// The marks of GitHub's headings: lower case, blanks as hyphens, no punctuation.
+/// The anchors of GitHub's headings: lower case, blanks as hyphens, no punctuation.
 std::string anchor(const std::string& heading) {
   std::string out;
   for (const char c : heading) {
@@ -79,7 +78,7 @@ std::set<std::string> anchors(const std::string& text) {
   return out;
 }
 
-/// What a document's links do not find, as "link: why".
+/// A document's broken links, as "link: why".
 std::vector<std::string> broken_links(const std::string& document, const std::string& text) {
   namespace fs = std::filesystem;
   static const std::regex kLink("\\]\\(([^)\\s]+)\\)");
@@ -137,7 +136,7 @@ TEST(Readme, FitsAFirstHalfHour) {
   EXPECT_LE(std::ranges::count(readme, '\n'), 200);
 }
 
-/// The words of a list's keys, "Ctrl+Shift+S" being one; what stands before it on its line, if it is given.
+/// The keys in a list, such as "Ctrl+Shift+S", with the group in front of them, such as "number pad".
 std::set<std::string> key_words(const std::string& list, const std::regex& line) {
   std::set<std::string> words;
   for (std::sregex_iterator at(list.begin(), list.end(), line), end; at != end; ++at) {
@@ -151,7 +150,7 @@ std::set<std::string> key_words(const std::string& list, const std::regex& line)
   return words;
 }
 
-/// What is printed on a key.
+/// The label of a key.
 std::string printed(const std::string& name) {
   static const std::map<std::string, std::string> kNames = {{"escape", "Esc"}, {"equal", "+"},
                                                             {"minus", "-"},    {"period", "."},
@@ -194,7 +193,7 @@ TEST(Readme, AndTheHelpNameEveryKeyThatDoesSomething) {
                 std::regex("\\{\"([^\"]*)\","));
   for (const std::string& key : keys) {
     auto has = [&](const std::set<std::string>& words) {
-      // The period of the number pad is that of the keyboard.
+      // The period of the number pad equals that of the keyboard.
       return words.contains(key) || ((key == "." || key == "number pad .") &&
                                      (words.contains(".") || words.contains("number pad .")));
     };

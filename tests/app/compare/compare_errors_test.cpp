@@ -1,4 +1,4 @@
-// What a comparison measures: errors against references, and noise without one.
+// Measurements of a comparison: errors against a reference, and noise without one.
 
 #include "app/compare/compare_testing.h"
 #include "imaging/compare.h"
@@ -24,7 +24,7 @@ TEST(CompareErrorsUi, AReferenceGivesErrorsThatFall) {
   hand.frame(2);
   EXPECT_TRUE(compare(hand).rendering_reference);
   hand.wait_until("the reference is there", [&] { return compare(hand).has_reference; });
-  // Anew, so that the curves begin with few samples.
+  // Restarted, so that the curves begin with few samples.
   hand.choose("path.light_sampling", "nee");
   hand.wait_until("the plot has points", [&] {
     const Plot& plot = compare(hand).plot;
@@ -36,7 +36,7 @@ TEST(CompareErrorsUi, AReferenceGivesErrorsThatFall) {
   const auto& points = compare(hand).plot.series[1].points;
   EXPECT_LT(points.back().y, points.front().y) << "the error falls";
   hand.key(Key::k);
-  // It is what the command would say.
+  // The same value as from the command.
   const Image& reference = *hand.viewer.comparison().reference_image();
   hand.wait_until("the last picture is measured", [&] {
     return hand.viewer.session().status().phase == SessionPhase::paused &&
@@ -55,7 +55,7 @@ TEST(CompareErrorsUi, AReferenceGivesErrorsThatFall) {
   fs::copy_file(folder / "candela-compare.png", screenshot_path("compare_export.png"),
                 fs::copy_options::overwrite_existing);
 
-  // Another view: the reference says nothing about it, until one comes back.
+  // Another view: the reference does not apply until the view returns.
   hand.key_down(Key::w);
   hand.frame(3);
   hand.key_up(Key::w);
@@ -112,14 +112,14 @@ TEST(CompareErrorsUi, NoiseIsEstimatedWithoutAReference) {
   fs::copy_file(folder / "candela-compare.png", screenshot_path("compare_noise_export.png"),
                 fs::copy_options::overwrite_existing);
 
-  // A reference tells more.
+  // A reference gives relMSE instead.
   hand.choose("compare.reference_spp", "64");
   hand.key(Key::k);
   hand.click("compare.render_reference");
   hand.wait_until("the error is known", [&] { return compare(hand).variants[1].rel_mse.has_value(); });
   EXPECT_EQ(compare(hand).plot.y.label, "relMSE");
 
-  // Other views have no noise to speak of.
+  // Other views have no noise estimate.
   hand.unfold("panel.display", "display.exposure");
   hand.choose("view", "samples");
   hand.wait_until("nothing is estimated", [&] { return !compare(hand).variants[1].noise; });
@@ -135,9 +135,7 @@ TEST(CompareErrorsUi, ReferencesComeFromFilesAndVariants) {
   write_linear_image({9, 9, std::vector<vec3>(81, vec3(0.5f))}, folder / "small.exr");
   auto load = [&](const std::string& path) {
     hand.click("compare.reference_path");
-    hand.key_down(Key::left_control);
-    hand.key(Key::a);
-    hand.key_up(Key::left_control);
+    hand.control(Key::a);
     hand.type(path);
     hand.click("compare.load_reference");
   };

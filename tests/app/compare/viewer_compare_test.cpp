@@ -1,4 +1,4 @@
-// Two settings side by side, as a user compares them.
+// Comparisons of two settings in the window.
 
 #include "app/compare/compare_testing.h"
 #include "imaging/difference.h"
@@ -60,7 +60,7 @@ TEST(ViewerCompareUi, BothVariantsAreRenderedAndShown) {
   expect_shows(hand, panes.variants[0], *a.display());
   expect_shows(hand, panes.variants[1], *b.display());
 
-  // A's picture was not begun anew by the comparison, nor is it when the panels turn to A.
+  // A's accumulation is restarted neither by the comparison nor when the panels switch to A.
   EXPECT_EQ(a.status().restarts, 1u);
   hand.choose("compare.edited", "A");
   EXPECT_EQ(hand.document().settings.sampler.type, SamplerType::sobol);
@@ -147,13 +147,11 @@ TEST(ViewerCompareUi, WhatIsSharedAndWhatIsNot) {
   EXPECT_EQ(hand.document().settings.path.max_depth, -1);
   EXPECT_EQ(other().settings.path.max_depth, 3);
   hand.choose("compare.edited", "A");
-  hand.key_down(Key::left_control);
-  hand.key(Key::z);
-  hand.key_up(Key::left_control);
+  hand.control(Key::z);
   hand.frame(2);
   EXPECT_EQ(hand.document().settings.path.max_depth, -1);
 
-  // Copies go either way; closing keeps the variant that the panels show.
+  // Copies in both directions; closing keeps the variant that the panels edit.
   hand.click("compare.copy_b");
   hand.frame(2);
   EXPECT_EQ(hand.document().settings.sampler.type, SamplerType::independent);

@@ -16,7 +16,7 @@ public:
   }
   const LabPanel& lab() const { return viewer.lab(); }
 
-  /// Scrolls the lab until the widget is to be seen, and returns its middle.
+  /// Scrolls the lab until the widget is visible, and returns its centre.
   vec2 reveal_in_lab(const std::string& name) {
     for (int i = 0; i < 200; ++i) {
       const auto widget = find(name);
@@ -25,7 +25,7 @@ public:
       scroll({3, 300}, widget->lo.y < widget->clip_lo.y + 1 ? 2.0f : -2.0f);
       frame();
     }
-    ADD_FAILURE() << name << " is nowhere to be seen";
+    ADD_FAILURE() << name << " is not visible";
     return vec2(-1);
   }
   void open_page(std::string_view lesson) {
@@ -55,7 +55,7 @@ public:
     EXPECT_FALSE(lab().busy());
     frame();
   }
-  /// RGBA of what lies under a widget.
+  /// RGBA of a widget's pixels.
   std::vector<std::uint8_t> under(const std::string& name) {
     reveal_in_lab(name);
     const auto widget = find(name);
@@ -169,7 +169,7 @@ TEST(ViewerLabUi, AnEditShowsAnotherLesson) {
     hand.finish_lesson();
     EXPECT_NE(before, hand.under(c.canvas));
   }
-  // The picture's own sampler is another.
+  // The render's sampler is independent of the lab's.
   EXPECT_EQ(hand.document().settings.sampler, SamplerSettings{});
 }
 

@@ -1,4 +1,4 @@
-// What is a step, what it is called, and how far back it goes.
+// Steps of the history, their names, and its limits.
 
 #include "app/tools/edit_history.h"
 
@@ -27,7 +27,7 @@ struct History : ::testing::Test {
   EditState state = fresh();
 
   History() { history.reset(state); }
-  /// The panels have made it of the state, at once.
+  /// An edit of the panels, without a gesture.
   void observe() { history.observe(state, true, false); }
 };
 
@@ -138,7 +138,7 @@ TEST_F(History, IsBounded) {
   while (history.can_undo()) history.undo(), ++steps;
   EXPECT_GT(steps, 100);
   EXPECT_LE(steps, 500);
-  // Old scenes are let go: their meshes may be large.
+  // Old scenes are dropped, because their meshes may be large.
   std::weak_ptr<OpenScene> first = state.scene;
   for (int i = 0; i < 3; ++i) {
     state.scene = std::make_shared<OpenScene>();

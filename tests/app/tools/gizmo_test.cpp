@@ -1,4 +1,4 @@
-// The handles, and what their drags do; transforms as people type them.
+// Handles and their drags; typed transforms.
 
 #include "app/tools/gizmo.h"
 #include "app/tools/transform_parts.h"
@@ -22,7 +22,7 @@ ScreenProjection screen_of(Projection projection = Projection::perspective) {
 
 const vec3 kPivot(0.2f, -0.1f, 0.4f);
 
-/// A point on the handle, as the mouse would take it.
+/// A point on the handle where the mouse hits it.
 vec2 grip(const ScreenProjection& screen, GizmoHandle handle, Tool tool) {
   const vec2 middle = *screen.point(kPivot);
   if (handle == GizmoHandle::view) return middle + (tool == Tool::rotate ? vec2(0, -102) : vec2(0));

@@ -1,4 +1,4 @@
-// The camera about a pivot, and between the world and the screen.
+// Camera navigation about a pivot, and projections to the screen.
 
 #include "app/tools/fly_camera.h"
 #include "app/tools/orbit_camera.h"
@@ -71,7 +71,7 @@ TEST(OrbitCamera, KeepsThePivotInItsPlaceAndDistance) {
     expect_near(seen(turned, pivot), seen(camera, pivot));
     EXPECT_NEAR(glm::length(turned.position - pivot), glm::length(camera.position - pivot), 1e-4f);
     EXPECT_GT(glm::length(turned.position - camera.position), 1);
-    // Up stays up: the picture does not roll.
+    // The picture does not roll.
     EXPECT_NEAR(glm::dot(ScreenProjection(turned, kPicture, kFilm).right(), camera.up), 0, 1e-5f);
   }
 }

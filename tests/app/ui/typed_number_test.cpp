@@ -1,4 +1,4 @@
-// Numbers as they are typed and shown; files as they are dropped; sizes as they are remembered.
+// Typed and displayed numbers, dropped files, stored window sizes, typefaces, the process deadline.
 
 #include "app/figures/typeface.h"
 #include "app/platform/process_deadline.h"

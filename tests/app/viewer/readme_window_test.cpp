@@ -1,4 +1,4 @@
-// The picture of the window in the README: `ctest --preset heavy -R ReadmeWindow` leaves it as
+// The picture of the window in the README: `ctest --preset heavy -R ReadmeWindow` writes it to
 // screenshots/window.png.
 
 #include "app/harness.h"
@@ -15,7 +15,7 @@ TEST(ReadmeWindowHeavy, LeavesAConvergedPicture) {
   document.settings.stop = {};
   document.settings.stop.spp = 256;
   ViewerHarness hand(document, {.size = {1280, 720}, .fit_film = true, .scene_path = scene});
-  // Frame by frame, as a window draws, so that the latencies that it shows are its own.
+  // Frame by frame like a window, so that the displayed latencies are realistic.
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(50);
   while (!hand.viewer.session().wait_finished(0.03)) {
     ASSERT_LT(std::chrono::steady_clock::now(), end);

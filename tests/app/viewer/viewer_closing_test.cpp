@@ -1,5 +1,5 @@
-// Edits, other scenes and the end are answered whatever is under way. A guard ends the test program where one
-// of them hangs: what takes its time on a slow machine does not.
+// Edits, opening scenes and closing are handled during any other work. A guard with a generous limit ends the
+// test program if one of them hangs.
 
 #include "app/harness.h"
 #include "io/candela/candela_json.h"
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Ends the program if it lives for longer than any machine needs.
+/// Ends the program after a time that suffices on any machine.
 class HangGuard {
 public:
   explicit HangGuard(const char* what)
@@ -41,8 +41,7 @@ private:
   std::thread thread_;
 };
 
-/// The camera is inside a cube of glass that takes no light: most of its paths are reflected totally for
-/// ever.
+/// The camera is inside a cube of lossless glass: most of its paths are totally reflected for ever.
 Document inside_glass() {
   Document document;
   Material glass;
@@ -138,7 +137,7 @@ TEST(ViewerClosingUi, WhateverIsUnderWay) {
   closes("saving", endless, [](ViewerHarness& hand) {
     for (int i = 0; i < 3; ++i) hand.key(Key::p);
   });
-  for (int i = 1; i <= 3; ++i) // what was asked for is there, whole
+  for (int i = 1; i <= 3; ++i) // the requested files are complete
     for (const char* ending : {"png", "exr"})
       EXPECT_EQ(read_image(folder / fmt::format("candela-{:04}.{}", i, ending)).width, 64);
 }

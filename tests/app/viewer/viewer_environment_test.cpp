@@ -1,4 +1,4 @@
-// Panoramas in the window: dropped on it, chosen by path, turned.
+// Panoramas in the window: dropped, opened by path, rotated.
 
 #include "app/harness.h"
 #include "support/materials.h"
@@ -61,7 +61,7 @@ TEST(ViewerEnvironmentUi, ADroppedPictureLightsTheScene) {
   for (vec3 pixel : hand.viewer.viewport().shown()->frame->linear) sum += static_cast<double>(pixel.y);
   EXPECT_GT(sum, 0);
 
-  // Another one, typed; it takes the place of the first, with its own mapping.
+  // Another one, by its path; it replaces the first, with its own mapping.
   hand.click("light.file");
   const std::string ball = write_sky(folder, "ball.pfm", 21, 21);
   hand.type(ball);

@@ -1,4 +1,4 @@
-// Scenes saved, reloaded, given up; questions before anything is lost; what the window remembers.
+// Saving, reloading and cancelling scenes; questions before edits are lost; preferences.
 
 #include "app/harness.h"
 #include "io/candela/candela_json.h"
@@ -11,15 +11,6 @@ namespace candela::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-void control(ViewerHarness& hand, Key key, bool shift = false) {
-  hand.key_down(Key::left_control);
-  if (shift) hand.key_down(Key::left_shift);
-  hand.key(key);
-  if (shift) hand.key_up(Key::left_shift);
-  hand.key_up(Key::left_control);
-  hand.frame(2);
-}
 
 void open(ViewerHarness& hand, const std::string& path) {
   hand.send(FilesDropped{{path}});
@@ -36,7 +27,7 @@ TEST(ViewerFilesUi, ControlSWritesTheEditedSceneIntoItsFile) {
   hand.type_into("display.exposure", "1.5");
   hand.frame(2);
   EXPECT_EQ(hand.viewer.title(), "room.json* - Candela");
-  control(hand, Key::s);
+  hand.control(Key::s, false, 2);
   hand.wait_until("it is saved", [&] { return hand.state().notice.starts_with("Saved"); });
   hand.frame();
   EXPECT_EQ(hand.viewer.title(), "room.json - Candela");
@@ -52,7 +43,7 @@ TEST(ViewerFilesUi, WhatIsNoJsonOfOnesOwnIsSavedUnderANewName) {
   write_text(obj, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   ViewerHarness hand;
   open(hand, obj);
-  control(hand, Key::s);
+  hand.control(Key::s, false, 2);
   ASSERT_TRUE(hand.find("save.path"));
   EXPECT_EQ(hand.state().save_path, folder / "kite.json");
   hand.click("save.to");
@@ -69,10 +60,10 @@ TEST(ViewerFilesUi, AnotherFileIsReplacedOnlyWhenAsked) {
   ScratchFolder folder;
   write_text(folder / "other.json", "someone else's");
   ViewerHarness hand;
-  control(hand, Key::s, true);
+  hand.control(Key::s, true, 2);
   ASSERT_TRUE(hand.find("save.path"));
   hand.click("save.path");
-  control(hand, Key::a);
+  hand.control(Key::a, false, 2);
   hand.type(folder / "other.json");
   hand.key(Key::enter);
   hand.frame(2);
@@ -91,9 +82,9 @@ TEST(ViewerFilesUi, AnotherFileIsReplacedOnlyWhenAsked) {
 
 TEST(ViewerFilesUi, AFileThatCannotBeWrittenIsReported) {
   ViewerHarness hand;
-  control(hand, Key::s, true);
+  hand.control(Key::s, true, 2);
   hand.click("save.path");
-  control(hand, Key::a);
+  hand.control(Key::a, false, 2);
   hand.type("/nowhere/at/all.json");
   hand.key(Key::enter);
   hand.wait_until("the error shows", [&] { return hand.find("error.text").has_value(); });
@@ -124,7 +115,7 @@ TEST(ViewerFilesUi, ClosingAsksOnlyWhereEditsWouldBeLost) {
     hand.click("quit.stay");
     hand.frame(2);
     EXPECT_FALSE(hand.find("question.quit"));
-    control(hand, Key::q);
+    hand.control(Key::q, false, 2);
     hand.click("quit.save");
     hand.wait_until("it is saved and closed", [&] { return hand.viewer.wants_close(); });
     EXPECT_EQ(read_scene(path).document.settings.display.exposure, 1.0f);
@@ -132,9 +123,9 @@ TEST(ViewerFilesUi, ClosingAsksOnlyWhereEditsWouldBeLost) {
   ViewerHarness hand;
   open(hand, path);
   hand.type_into("display.exposure", "3");
-  control(hand, Key::q);
+  hand.control(Key::q, false, 2);
   EXPECT_FALSE(hand.viewer.wants_close());
-  control(hand, Key::q);
+  hand.control(Key::q, false, 2);
   EXPECT_TRUE(hand.viewer.wants_close()) << "who asks twice means it";
   EXPECT_EQ(read_scene(path).document.settings.display.exposure, 1.0f);
 }
@@ -239,7 +230,7 @@ TEST(ViewerFilesUi, BuildingIsGivenUpForTheSceneBefore) {
   gate.close();
   for (bool by_key : {false, true}) {
     if (by_key)
-      control(hand, Key::y); // what was given up is redone
+      hand.control(Key::y, false, 2); // what was given up is redone
     else
       open(hand, path);
     hand.wait_until("it is being built", [&] { return hand.state().status.phase == SessionPhase::building; });
@@ -284,7 +275,7 @@ TEST(ViewerFilesUi, TheLayoutIsRemembered) {
     hand.click("panel.statistics");
     hand.unfold("panel.objects", "list.objects");
     open(hand, path);
-    control(hand, Key::equal);
+    hand.control(Key::equal, false, 2);
   }
   ASSERT_TRUE(fs::exists(preferences));
   ViewerHarness hand(test_document(), {.preferences = preferences});

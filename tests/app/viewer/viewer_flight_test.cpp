@@ -1,4 +1,4 @@
-// Flying, looking, focusing: what each key and drag does to the camera.
+// Flying, looking, focusing: the effect of each key and drag on the camera.
 
 #include "app/harness.h"
 
@@ -144,7 +144,7 @@ TEST(ViewerFlightUi, FAndControlClickFocusOnWhatIsThere) {
   hand.key(Key::f);
   EXPECT_NEAR(hand.document().scene.camera.focus_distance, 4.6f, 1e-4f);
   EXPECT_NE(hand.state().notice.find("pinhole"), std::string::npos)
-      << "it says why nothing is to be seen of it: " << hand.state().notice;
+      << "it says why the focus has no visible effect: " << hand.state().notice;
   hand.type_into("camera.aperture_radius", "0.1");
   hand.wait_for_picture();
   hand.key_down(Key::left_control);

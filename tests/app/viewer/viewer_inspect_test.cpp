@@ -1,5 +1,5 @@
-// What the window tells about the picture (probe, histogram, focus, legend), bookmarks, and views of other
-// shapes.
+// Information about the picture (probe, histogram, focus, legend), bookmarks, and views with other
+// proportions.
 
 #include "app/harness.h"
 #include "io/candela/candela_json.h"
@@ -10,7 +10,7 @@
 namespace candela::test {
 namespace {
 
-/// Where a point of the film is on the screen.
+/// The screen position of a point of the film.
 vec2 on_screen(const ViewerHarness& hand, vec2 film) {
   const PixelRect rect = hand.viewer.picture_rect();
   const vec2 size(hand.state().picture->width, hand.state().picture->height);
@@ -84,7 +84,7 @@ TEST(ViewerHistogramUi, CountsThePictureThatIsShown) {
   for (std::uint32_t n : histogram.counts[LogHistogram::gray]) counted += n;
   EXPECT_EQ(counted, 64u * 48u);
 
-  // Brighter by two stops: more is clipped, but the light is the same.
+  // Brighter by two stops: more pixels are clipped, but the radiance is the same.
   const std::size_t clipped = histogram.clipped_white;
   const std::uint64_t restarts = hand.state().status.restarts;
   const auto before = inspect(hand).histogram;
@@ -119,9 +119,7 @@ TEST(ViewerBookmarksUi, AreAddedRenamedVisitedAndDeleted) {
   hand.click("bookmark.add");
   ASSERT_EQ(hand.document().scene.bookmarks.size(), 2u);
   hand.click("bookmark.name");
-  hand.key_down(Key::left_control);
-  hand.key(Key::a);
-  hand.key_up(Key::left_control);
+  hand.control(Key::a);
   hand.type("near");
   hand.key(Key::enter);
   hand.frame();
@@ -130,9 +128,7 @@ TEST(ViewerBookmarksUi, AreAddedRenamedVisitedAndDeleted) {
   hand.click("bookmarks/0");
   EXPECT_EQ(hand.document().scene.camera, start);
   hand.click("bookmark.name");
-  hand.key_down(Key::left_control);
-  hand.key(Key::a);
-  hand.key_up(Key::left_control);
+  hand.control(Key::a);
   hand.type("near");
   hand.click("bookmark.rename");
   EXPECT_EQ(hand.document().scene.bookmarks[0].name, "near 2") << "names stay apart";
@@ -141,9 +137,7 @@ TEST(ViewerBookmarksUi, AreAddedRenamedVisitedAndDeleted) {
   EXPECT_EQ(hand.document().scene.camera, there);
   hand.key(Key::digit_7);
   EXPECT_EQ(hand.document().scene.camera, there) << "there is none";
-  hand.key_down(Key::left_control);
-  hand.key(Key::digit_1);
-  hand.key_up(Key::left_control);
+  hand.control(Key::digit_1);
   EXPECT_EQ(hand.document().scene.bookmarks[0].camera, there);
 
   EXPECT_NE(candela_json(hand.document(), ".").find("\"bookmarks\": ["), std::string::npos);
@@ -188,7 +182,7 @@ TEST(ViewerFocusUi, ShowsThePlaneOfFocusOverThePicture) {
   EXPECT_EQ(pixel_at(hand, ball), ball_before) << "the ball is out of focus";
   const auto tinted = pixel_at(hand, back);
   EXPECT_GT(tinted[2] - tinted[0], back_before[2] - back_before[0]) << "the tint is cool";
-  // Focused by hand on the ball, it lights up at once, without new depths.
+  // Focusing on the ball updates the overlay at once, without new depths.
   hand.unfold("panel.camera", "camera.focus_distance");
   ASSERT_TRUE(hand.find("focus.show_plane"));
   hand.type_into("camera.focus_distance", "3.2");

@@ -1,4 +1,4 @@
-// What the window tells, where, and for how long.
+// Messages of the window: positions and duration.
 
 #include "app/figures/typeface.h"
 #include "app/harness.h"
@@ -14,15 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void control(ViewerHarness& hand, Key key, bool shift = false) {
-  hand.key_down(Key::left_control);
-  if (shift) hand.key_down(Key::left_shift);
-  hand.key(key);
-  if (shift) hand.key_up(Key::left_shift);
-  hand.key_up(Key::left_control);
-  hand.frame(6);
-}
-
 void fail_to_open(ViewerHarness& hand, const std::string& path) {
   hand.send(FilesDropped{{path}});
   hand.wait_until("the error shows", [&] { return hand.find("error.text").has_value(); });
@@ -31,7 +22,7 @@ void fail_to_open(ViewerHarness& hand, const std::string& path) {
 
 TEST(ViewerMessagesUi, AnErrorMovesNoField) {
   ViewerHarness hand;
-  control(hand, Key::s, true);
+  hand.control(Key::s, true, 6);
   const auto field = hand.find("save.path");
   ASSERT_TRUE(field);
   fail_to_open(hand, "/nowhere/a.json");
@@ -81,14 +72,12 @@ TEST(ViewerMessagesUi, AnErrorGoesWithItsCause) {
   hand.key_up(Key::w);
   EXPECT_EQ(hand.state().error, "") << "the camera is elsewhere";
 
-  control(hand, Key::s, true);
-  hand.key_down(Key::left_control);
-  hand.key(Key::a);
-  hand.key_up(Key::left_control);
+  hand.control(Key::s, true, 6);
+  hand.control(Key::a);
   hand.type("/nowhere/at/all.json");
   hand.key(Key::enter);
   hand.wait_until("the error shows", [&] { return !hand.state().error.empty(); });
-  control(hand, Key::s, true);
+  hand.control(Key::s, true, 6);
   hand.type("x");
   EXPECT_EQ(hand.state().error, "") << "another name is typed";
 }
@@ -132,7 +121,7 @@ TEST(ViewerMessagesUi, AnErrorGivesWayToWhatIsTypedInTheLab) {
   hand.key(Key::f2);
   hand.frame(3);
   fail_to_open(hand, "/nowhere/a.json");
-  // A field as high up as there is: the first of the lesson on show.
+  // The topmost field: the first one of the current lesson.
   std::optional<WidgetRecord> field;
   for (const WidgetRecord& w : hand.viewer.widgets())
     if (w.name.starts_with("lab.") && w.hi.x < 452 &&

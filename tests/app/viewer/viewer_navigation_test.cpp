@@ -71,9 +71,7 @@ TEST(ViewerNavigationUi, TheNumberPadLooksAlongTheAxes) {
   EXPECT_LT(glm::length(forward_of(hand.document().scene.camera) - vec3(-1, 0, 0)), 1e-3f);
   hand.key(Key::keypad_7);
   EXPECT_LT(glm::length(forward_of(hand.document().scene.camera) - vec3(0, -1, 0)), 2e-3f);
-  hand.key_down(Key::left_control);
-  hand.key(Key::keypad_1);
-  hand.key_up(Key::left_control);
+  hand.control(Key::keypad_1);
   EXPECT_LT(glm::length(forward_of(hand.document().scene.camera) - vec3(0, 0, 1)), 1e-3f);
   hand.unfold("panel.camera", "camera.front");
   hand.click("camera.front");
@@ -94,7 +92,7 @@ TEST(ViewerNavigationUi, UndoTakesBackGestureByGesture) {
   const Document orbited = hand.document();
   hand.frame();
   EXPECT_EQ(hand.state().undo_name, "Camera");
-  for (int i = 0; i < 3; ++i) hand.scroll({400, 300}, 1); // one step: the hand did not rest
+  for (int i = 0; i < 3; ++i) hand.scroll({400, 300}, 1); // one step: there was no pause
   hand.frame(3, 1.0);
   const Document zoomed = hand.document();
   hand.type_into("display.exposure", "2");

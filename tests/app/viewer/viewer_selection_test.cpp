@@ -6,7 +6,7 @@
 namespace candela::test {
 namespace {
 
-/// Where the window shows a point of the world.
+/// The screen position of a point of the world.
 vec2 shown(ViewerHarness& hand, vec3 world) {
   const FilmSettings& film = hand.document().settings.film;
   const ScreenProjection screen(hand.document().scene.camera, hand.viewer.picture_rect(),
@@ -17,7 +17,7 @@ vec2 shown(ViewerHarness& hand, vec3 world) {
 const vec3 kBall(0.2f, -0.6f, 0.1f), kSpark(-0.6f, 0.2f, 0.5f);
 constexpr int kBallIndex = 6;
 
-/// The picture is there, and the ball is selected.
+/// Waits for the picture and selects the ball.
 struct HandOnBall : ViewerHarness {
   HandOnBall() {
     wait_for_picture();
@@ -179,7 +179,7 @@ TEST(ViewerSelectionUi, NumbersPlaceAnObject) {
   hand.type_into("object.scale.z", "2");
   const mat4 expected = transform_of({{0.2f, 0.25f, 0.1f}, {10, 120, 0}, {1, 1, 2}});
   EXPECT_EQ(hand.document().scene.instances[kBallIndex].world_from_object, expected)
-      << "the angles are those that were typed, not others of the same matrix";
+      << "the typed angles are kept, not replaced by others of the same matrix";
   hand.choose("object.material.0", "red");
   EXPECT_EQ(hand.document().scene.instances[kBallIndex].materials[0], 1);
   hand.wait_for_picture();
@@ -192,9 +192,7 @@ TEST(ViewerSelectionUi, ARegionAccumulatesAlone) {
   ViewerHarness hand(document);
   hand.wait_until("a picture is there", [&] { return hand.state().picture && hand.state().status.spp > 0; });
   const Camera camera = hand.document().scene.camera;
-  hand.key_down(Key::left_control);
-  hand.key(Key::b);
-  hand.key_up(Key::left_control);
+  hand.control(Key::b);
   EXPECT_TRUE(hand.state().region_armed);
   const PixelRect rect = hand.viewer.picture_rect();
   const vec2 lo(rect.x + rect.width / 4, rect.y + rect.height / 4);

@@ -91,7 +91,7 @@ TEST(ViewerSettingsUi, EveryRowOfTheTableRestartsAsItSays) {
     std::uint64_t after = restarts(hand);
     EXPECT_EQ(after - before, expected_restarts(row.invalidates));
     before = after;
-    // Back, so that no pair of values makes the next row's edit meaningless.
+    // Restored, so that no pair of values makes the next row's edit ineffective.
     field_from_text(row, row.address(document), old);
     const Edit back{row.type == FieldType::point || row.type == FieldType::color
                         ? fmt::format("{}", static_cast<vec3*>(row.address(document))->x)
@@ -141,7 +141,7 @@ TEST(ViewerSettingsUi, TypingCountsWhenItIsDone) {
   hand.frame(2);
   EXPECT_EQ(hand.document().settings.film.width, 123);
   EXPECT_EQ(restarts(hand) - before, 1u);
-  // A click elsewhere means Enter too.
+  // A click elsewhere is like Enter.
   hand.begin_typing("film.width");
   hand.type("77");
   hand.click(hand.reveal("statistics.progress"));

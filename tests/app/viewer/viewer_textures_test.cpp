@@ -1,4 +1,4 @@
-// Textures in the window: chosen beside a parameter, dropped on it, edited.
+// Textures in the window: selected for a parameter, dropped on it, edited.
 
 #include "app/harness.h"
 #include "io/images/image_file.h"

@@ -1,4 +1,4 @@
-// Who has the keyboard, and what comes of what is typed.
+// Keyboard focus, and the handling of typed text.
 
 #include "app/harness.h"
 #include "io/candela/candela_json.h"
@@ -28,15 +28,7 @@ void settle(ViewerHarness& hand) {
   hand.frame(2);
 }
 
-void control(ViewerHarness& hand, Key key, bool shift = false) {
-  hand.key_down(Key::left_control);
-  if (shift) hand.key_down(Key::left_shift);
-  hand.key(key);
-  if (shift) hand.key_up(Key::left_shift);
-  hand.key_up(Key::left_control);
-}
-
-/// What keys that are not meant for the view leave as it is.
+/// State that keys must not change unless they are meant for the view.
 struct View {
   Camera camera;
   bool compares, panels, help, paused;
@@ -55,7 +47,7 @@ TEST(ViewerTypingUi, SaveAsTakesTheKeyboardAtOnce) {
   ViewerHarness hand(test_document(), {.screenshot_folder = folder.path()});
   hand.wait_for_picture();
   const View before = view_of(hand);
-  // All in one go, as a hurried hand or another program does it.
+  // All events at once, as from a fast user or another program.
   for (Key key : {Key::left_control, Key::left_shift, Key::s}) hand.viewer.handle(KeyChanged{key, true});
   for (Key key : {Key::s, Key::left_shift, Key::left_control}) hand.viewer.handle(KeyChanged{key, false});
   type_fast(hand, kEveryLetter);
@@ -78,7 +70,7 @@ TEST(ViewerTypingUi, SaveAsIsAnsweredByEnter) {
   hand.send(FilesDropped{{path}});
   hand.wait_until("the scene is open", [&] { return hand.state().scene_path == path; });
   for (const char* name : {"second", "third"}) { // the field appears anew each time
-    control(hand, Key::s, true);
+    hand.control(Key::s, true);
     type_fast(hand, name);
     settle(hand);
     hand.key(Key::enter);
@@ -96,7 +88,7 @@ TEST(ViewerTypingUi, ANameThatCannotBeWrittenIsAskedForAgain) {
   ViewerHarness hand;
   hand.send(FilesDropped{{path}});
   hand.wait_until("the scene is open", [&] { return hand.state().scene_path == path; });
-  control(hand, Key::s, true);
+  hand.control(Key::s, true);
   hand.frame(4);
   hand.type("/nowhere/x"); // behind the folder that the field offers: an absolute path all the same
   hand.key(Key::enter);
@@ -104,7 +96,7 @@ TEST(ViewerTypingUi, ANameThatCannotBeWrittenIsAskedForAgain) {
   EXPECT_TRUE(hand.state().error.starts_with("/nowhere/x.json:")) << hand.state().error;
   hand.frame(4);
   ASSERT_TRUE(hand.find("save.path"));
-  control(hand, Key::a);
+  hand.control(Key::a);
   hand.type(folder / "better");
   EXPECT_EQ(hand.state().error, "");
   hand.key(Key::enter);
@@ -144,7 +136,7 @@ TEST(ViewerTypingUi, NoSingleKeyActsWhileSomethingAsks) {
   hand.key(Key::escape);
   EXPECT_EQ(hand.state().question, Question::none);
 
-  control(hand, Key::s, true);
+  hand.control(Key::s, true);
   hand.frame(4);
   hand.click("statistics.progress"); // the field is left, the dialog is not
   no_key_acts("a dialog whose field has not the keyboard");
@@ -182,7 +174,7 @@ TEST(ViewerTypingUi, LettersAfterAClickGoToTheFieldThatWasClicked) {
 
 TEST(ViewerTypingUi, NamesAreTypedInAnyScript) {
   ViewerHarness hand;
-  control(hand, Key::s, true);
+  hand.control(Key::s, true);
   hand.frame(4);
   for (char32_t c : {U'\x5149', U'\x308b', U'\x7bb1', U'\x5e9'}) hand.viewer.handle(TextTyped{c});
   settle(hand);
@@ -239,7 +231,7 @@ TEST(ViewerTypingUi, WhatIsNoNumberIsRefusedAndSaidSo) {
     for (const char* text : {"2+3", "1,234.5", "1.234,5", "abc", "0x10", "1 2", ""}) {
       SCOPED_TRACE(std::string(name) + ": " + text);
       hand.begin_typing(name);
-      control(hand, Key::a);
+      hand.control(Key::a);
       hand.key(Key::backspace);
       hand.type(text);
       hand.key(Key::enter);
@@ -316,7 +308,7 @@ TEST(ViewerTypingUi, NoTooltipLiesOverWhatIsTyped) {
   EXPECT_EQ(tooltips(), 1);
 }
 
-// The mesh of an exporter that writes world coordinates: its own origin is nowhere near it.
+// The mesh of an exporter that writes world coordinates, far from its origin.
 TEST(ViewerTypingUi, TypedScaleAndRotationAreAboutTheMiddle) {
   auto mesh = std::make_shared<Mesh>();
   mesh->positions = {{4, 0, 0}, {6, 0, 0}, {4, 2, 0}};

@@ -1,4 +1,4 @@
-// The window as a whole: its picture, its size, its files, its manners.
+// The window as a whole: picture, size, files, input.
 
 #include "app/harness.h"
 #include "core/color.h"
@@ -10,7 +10,8 @@
 
 #include <fstream>
 
-/// Mesa keeps a few kilobytes a context until the process ends; LeakSanitizer asks this function about them.
+/// Mesa keeps a few kilobytes per context until the process ends; LeakSanitizer calls this function for
+/// suppressions.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so"; }
 
 namespace candela::test {
@@ -29,7 +30,7 @@ std::vector<std::uint8_t> region(const ViewerHarness& hand, const PixelRect& rec
   return out;
 }
 
-/// Past the hint of the first seconds, which lies over the picture.
+/// Waits until the initial hint over the picture is gone.
 void wait_for_hint_to_go(ViewerHarness& hand) { hand.frame(2, 11); }
 
 TEST(ViewerWindowUi, ThePictureOnTheScreenIsTheHeadlessOneBitForBit) {
@@ -237,7 +238,7 @@ TEST(ViewerWindowUi, ControlQCloses) {
   hand.key(Key::q);
   EXPECT_FALSE(hand.viewer.wants_close());
   const Camera before = hand.document().scene.camera;
-  // All within one frame, and control released first, as a hurried hand does it.
+  // All within one frame, with control released first, as from a fast user.
   for (auto [key, down] : {std::pair(Key::left_control, true), std::pair(Key::q, true),
                            std::pair(Key::left_control, false), std::pair(Key::q, false)})
     hand.viewer.handle(KeyChanged{key, down});

@@ -1,5 +1,4 @@
-// The real window: the program itself, GLFW, and a hand that is xdotool, on an X server that draws into
-// memory.
+// The real window: the program with GLFW on an X server that draws into memory, with input by xdotool.
 
 #include "app/harness.h"
 #include "io/candela/candela_json.h"
@@ -23,7 +22,7 @@ bool installed(const char* program) {
   return std::system(fmt::format("command -v {} >/dev/null 2>&1", program).c_str()) == 0;
 }
 
-/// A program that runs beside the test and is ended with it.
+/// A child process that ends with the test.
 class Process {
 public:
   Process(std::vector<std::string> command, const fs::path& folder, const std::string& display,
@@ -36,8 +35,8 @@ public:
       if (chdir(folder.c_str()) != 0) _exit(126);
       if (!display.empty()) setenv("DISPLAY", display.c_str(), 1);
       unsetenv("WAYLAND_DISPLAY");
-      // In a build with AddressSanitizer: what the X and GL libraries leak is not to be told from ours, since
-      // they are unloaded by then. The other tests look for leaks of the same code.
+      // With AddressSanitizer: leaks of the X and GL libraries cannot be distinguished from ours, since the
+      // libraries are unloaded by then. The other tests check the same code for leaks.
       setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
       const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
       dup2(file, 1);
@@ -95,7 +94,7 @@ public:
   }
   const std::string& display() const { return display_; }
 
-  /// What xdotool prints; it is told to act on this server.
+  /// The output of xdotool for this server.
   std::string xdotool(const std::string& command) const {
     std::string out;
     FILE* pipe = popen(fmt::format("DISPLAY={} xdotool {}", display_, command).c_str(), "r");
@@ -174,7 +173,7 @@ TEST_F(RealWindowUi, FliesSavesAndCloses) {
   EXPECT_EQ(candela.wait(30), 0) << read_text(log);
 }
 
-// A path of it may go on for as long as it likes: the window does not ask it.
+// Its paths may be endless; closing the window must not wait for them.
 TEST_F(RealWindowUi, ClosesAtOnceAndLosesNoPicture) {
   ScratchFolder folder;
   write_text(folder / "glass.json", R"({"candela": 1, "camera": {"position": [0, 0, 0], "target": [1, 1, 1]},
@@ -193,7 +192,7 @@ TEST_F(RealWindowUi, ClosesAtOnceAndLosesNoPicture) {
     };
     ASSERT_TRUE(comes_true([&] { return !window().empty(); })) << read_text(log);
     server.xdotool("mousemove 300 300");
-    std::this_thread::sleep_for(std::chrono::seconds(1)); // into the middle of it
+    std::this_thread::sleep_for(std::chrono::seconds(1)); // during the work
     server.xdotool("key p key ctrl+q");
     EXPECT_EQ(candela.wait(30), 0) << read_text(log);
     EXPECT_EQ(window(), "");

@@ -130,7 +130,7 @@ void write_cycles_scene(const Document& document, const std::string& folder) {
 Cycles::Cycles(const std::string& blender, const std::string& folder, int threads,
                const std::vector<std::string>& settings)
     : log_(folder + "/blender.log") {
-  std::signal(SIGPIPE, SIG_IGN); // a blender that ended early shows in its silence
+  std::signal(SIGPIPE, SIG_IGN); // a blender that ended early is detected when reading
   int in[2], out[2];
   if (::pipe2(in, O_CLOEXEC) != 0 || ::pipe2(out, O_CLOEXEC) != 0)
     throw Error(ExitCode::limit, "versus_cycles: no pipe to blender: too many open files: close some");

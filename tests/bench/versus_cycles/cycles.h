@@ -10,18 +10,18 @@
 
 namespace candela::versus {
 
-/// The path of `blender` by $PATH; nothing where there is none.
+/// The path of `blender` in $PATH, if there is one.
 std::optional<std::string> find_blender();
 
-/// Writes what cycles_render.py builds the scene from: scene.json and, beside it, vertices and triangles as
-/// raw float32 and uint32, the panorama as EXR. Everything is in world space. Throws a usage error for what
-/// the script does not know: materials but diffuse and ggx without textures, lights but one panorama, shapes
-/// but meshes, rectangles and shining spheres.
+/// Writes the input of cycles_render.py: scene.json, vertices and triangles as raw float32 and uint32, the
+/// panorama as EXR. Everything is in world space. Throws a usage error for anything that the script does not
+/// support: it knows diffuse and ggx materials without textures, one panorama, meshes, rectangles and
+/// emissive spheres.
 void write_cycles_scene(const Document& document, const std::string& folder);
 
 class Cycles {
 public:
-  /// Starts blender on the folder's scene; everything it says goes to <folder>/blender.log. `settings` are
+  /// Starts blender on the folder's scene; its output goes to <folder>/blender.log. `settings` are
   /// "NAME=VALUE" of Blender's scene.cycles.
   Cycles(const std::string& blender, const std::string& folder, int threads,
          const std::vector<std::string>& settings);
@@ -31,8 +31,8 @@ public:
 
   /// Blender's version, "3.4.1".
   const std::string& version() const { return version_; }
-  /// Renders to an EXR; the seconds are those that Cycles states for rendering, without the synchronisation
-  /// of the scene and the building of its BVH, exact to 0.01.
+  /// Renders to an EXR; returns the seconds that Cycles reports for rendering, without scene synchronisation
+  /// and BVH building, with a resolution of 0.01.
   double render(int seed, int spp, const std::string& exr);
 
 private:

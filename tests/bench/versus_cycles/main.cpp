@@ -1,15 +1,15 @@
-// The same scenes in Candela and in Blender's Cycles on the CPU: how fast each renders, how much noise it
-// leaves, and whether both mean the same picture.
+// The same scenes in Candela and in Blender's Cycles on the CPU: speed and noise of both, and whether they
+// have the same expectation.
 //
 //   versus_cycles_bench [--short] [--scene cornell|ball|plates] [--size N] [--spp N] [--seeds N]
 //                       [--threads N] [--keep FOLDER] [--cycles NAME=VALUE] [KEY=VALUE ...]
 //
 // Both get box filter, unlimited depth, no clamping, no adaptive sampling, no denoiser, the same samples and
-// as many threads; the renders alternate, so that what disturbs the machine meets both. Seconds are of
-// rendering alone and the fastest of all seeds; relMSE comes from pairs of seeds, relative to the same image
-// (the mean of all renders of both); eff = 1 / (relMSE x seconds).
-// --short is for tests: small pictures, few samples, whose times mean nothing. --keep leaves the pictures and
-// what blender said. Exits with 1 where the means differ by more than the noise and the tolerances allow.
+// as many threads; the renders alternate, so that disturbances affect both. Seconds are for rendering only,
+// the least of all seeds; relMSE comes from pairs of seeds, relative to the same image (the mean of all
+// renders of both); eff = 1 / (relMSE x seconds). --short is for tests: small pictures and few samples,
+// without meaningful times. --keep keeps the pictures and blender's output. Exits with 1 if the means differ
+// by more than noise and tolerances allow.
 
 #include "core/error.h"
 #include "imaging/display_transform.h"

@@ -14,8 +14,8 @@ struct Sum {
   double value = 0, variance = 0; ///< of the sum over a region of the mean image
 };
 
-/// Pixels are independent; pairs of renders tell the variance: E (a - b)^2 = 2 Var, so that the mean of n has
-/// sum over pairs of (a - b)^2 / n^2.
+/// Pixels are independent; the variance is estimated from pairs of renders: E (a - b)^2 = 2 Var, so that the
+/// mean of n has sum over pairs of (a - b)^2 / n^2.
 Sum sum_of(const std::vector<Image>& images, int c, int x0, int x1, int y0, int y1) {
   Sum s;
   auto n = static_cast<double>(images.size());

@@ -1,4 +1,4 @@
-// What Candela JSON must not be, and where the reader says so.
+// Invalid Candela JSON, and the locations of the errors.
 
 #include "io/candela_json_files.h"
 
@@ -142,6 +142,27 @@ const JsonError kErrors[] = {
      "s.json:1:65: instances[0].minor_radius: ", "not below the radius"},
     {"CylinderCaps", "{\"candela\": 1, \"instances\": [{\"shape\": \"cylinder\", \"caps\": 1}]}",
      "s.json:1:60: instances[0].caps: ", "true"},
+    {"LightNoObject", "{\"candela\": 1, \"lights\": [7]}", "s.json:1:27: lights[0]: ", "give an object"},
+    {"LightType", "{\"candela\": 1, \"lights\": [{\"type\": 3}]}",
+     "s.json:1:36: lights[0].type: ", "one of point"},
+    {"LightScaleType", "{\"candela\": 1, \"lights\": [{\"scale\": \"2\"}]}",
+     "s.json:1:37: lights[0].scale: ", "a string does not fit"},
+    {"LightScaleRange", "{\"candela\": 1, \"lights\": [{\"scale\": -1}]}",
+     "s.json:1:37: lights[0].scale: ", "from 0"},
+    {"LightColorUnit", "{\"candela\": 1, \"lights\": [{\"color\": [1, 2]}]}",
+     "s.json:1:37: lights[0].color: ", "in W/sr"},
+    {"LightColorOverflow", "{\"candela\": 1, \"lights\": [{\"color\": [1, 2, 1e39]}]}",
+     "s.json:1:37: lights[0].color: ", "does not fit"},
+    {"LightNaN", "{\"candela\": 1, \"lights\": [{\"scale\": NaN}]}",
+     "s.json:1:37: JSON: ", "invalid literal"},
+    {"LightPosition", "{\"candela\": 1, \"lights\": [{\"position\": 0}]}",
+     "s.json:1:40: lights[0].position: ", "give [x, y, z]"},
+    {"OtherLightsType", "{\"candela\": 1, \"lights\": [{\"type\": \"constant\", \"position\": \"here\"}]}",
+     "s.json:1:60: lights[0].position: ", "give [x, y, z]"},
+    {"OtherLightsRange", "{\"candela\": 1, \"lights\": [{\"cutoff_angle\": 181}]}",
+     "s.json:1:44: lights[0].cutoff_angle: ", "180"},
+    {"OtherMaterialsType", "{\"candela\": 1, \"materials\": [{\"roughness\": \"rough\"}]}",
+     "s.json:1:44: materials[0].roughness: ", "a string does not fit"},
     {"SpotAxis", "{\"candela\": 1, \"lights\": [{\"type\": \"spot\", \"direction\": [0,0,0]}]}",
      "s.json:1:27: lights[0]: ", "no length"},
     {"SpotCutoff", "{\"candela\": 1, \"lights\": [{\"type\": \"spot\", \"cutoff_angle\": 181}]}",

@@ -1,4 +1,4 @@
-// What the writer writes, the reader reads back the same, to the last bit.
+// Documents that are written and read back are equal, bit for bit.
 
 #include "io/scene_files.h"
 #include "support/materials.h"
@@ -30,7 +30,7 @@ struct CandelaJsonRoundTrip : ::testing::Test {
   }
 };
 
-/// A random value that the row admits.
+/// A random value within the row's domain.
 template <class Owner>
 void randomise(const Field<Owner>& row, Owner& owner, std::mt19937& random) {
   void* address = row.address(owner);

@@ -117,8 +117,9 @@ TEST_F(CandelaJson, ImportsTheMaterialsOfAnObj) {
   EXPECT_EQ(mesh_of(loaded, 2).name, "oak");
   EXPECT_EQ(s.materials[3].name, "oak/leaf");
   EXPECT_EQ(s.textures.size(), 1u) << "a texture is read once";
-  EXPECT_EQ(files.warnings(loaded),
-            std::vector<std::string>{"1 x s.json: nothing in the scene shines: the picture will be black"});
+  EXPECT_EQ(
+      files.warnings(loaded),
+      std::vector<std::string>{"1 x s.json: nothing in the scene emits light: the picture will be black"});
 }
 
 TEST_F(CandelaJson, TakesAByteOrderMarkAndWindowsLineEnds) {
@@ -159,6 +160,14 @@ TEST_F(CandelaJson, ReadsBookmarksAndRefusesOddOnes) {
     many += (i > 0 ? ",{" : "{") + std::string("\"name\": \"") + std::to_string(i) + "\"}";
   EXPECT_TRUE(test::says(error("{\"candela\": 1, \"bookmarks\": " + many + "]}", ExitCode::limit),
                          "s.json:1:29: bookmarks: ", {"keep at most 10000"}));
+}
+
+TEST_F(CandelaJson, IgnoresALightsValuesOfOtherTypesWithAWarning) {
+  auto loaded =
+      read(R"({"candela": 1, "lights": [{"type": "constant", "color": 2, "position": [1, 2, 3]}]})");
+  EXPECT_EQ(loaded.document.scene.lights.at(0), (LightDesc{"", ConstantLightModel{}, vec3(2)}));
+  EXPECT_EQ(files.warnings(loaded)[0],
+            "1 x s.json:1:60: lights[0].position: a light of the type constant has no such value");
 }
 
 } // namespace

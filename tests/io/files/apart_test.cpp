@@ -1,4 +1,4 @@
-// Work in a thread that may be left alone.
+// Work in a thread that may be abandoned.
 
 #include "core/error.h"
 #include "io/files/apart.h"
@@ -44,7 +44,7 @@ TEST_F(Apart, WithoutProgressItIsDoneHere) {
   }));
 }
 
-// The work does not end before the test lets it; that it was given up is known before.
+// The work ends only when the test lets it, after the caller has been cancelled.
 TEST_F(Apart, WorkThatDoesNotListenIsLeftAlone) {
   struct Signals {
     std::binary_semaphore started{0}, may_end{0}, ended{0};

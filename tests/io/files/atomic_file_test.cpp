@@ -182,7 +182,7 @@ TEST(AtomicFile, UniqueNamesAreNotSharedByARace) {
       << "one file overwrote another";
 }
 
-/// What check_writable() says of the path: done where it says nothing.
+/// The exit code of check_writable(); done if it does not throw.
 ExitCode checked(const std::string& path) {
   return test::code_of([&] { check_writable(path); });
 }
@@ -210,7 +210,7 @@ TEST(CheckWritable, SaysBeforehandWhatWritingWouldSay) {
   EXPECT_EQ(test::read_text(folder / "file"), "old");
 }
 
-/// Runs in a child of another user, whom permissions bind: root may do anything. Its exit status.
+/// Runs in a child process of another user, since permissions do not restrict root. Returns its exit status.
 int as_nobody(const std::function<int()>& work) {
   const pid_t child = ::fork();
   if (child == 0) {

@@ -1,4 +1,4 @@
-// What a scene may name: files beside and below it, nothing else unless it is allowed.
+// The files that a scene may name: those of its folder's tree, others only if allowed.
 
 #include "io/scene_files.h"
 #include "support/materials.h"

@@ -1,4 +1,4 @@
-// Which part and layer of an EXR is its picture.
+// Selection of the part and layer of an EXR.
 
 #include "core/error.h"
 #include "io/images/image_codec.h"
@@ -78,7 +78,7 @@ TEST_F(ExrLayers, OfSeveralLayersOfOnePart) {
   EXPECT_EQ(pixel({{"", {"diffuse.R", "diffuse.G", "diffuse.B", "beauty.R", "beauty.G", "beauty.B"}}}),
             vec3(4, 5, 6));
   EXPECT_NE(warning().find("'diffuse'"), std::string::npos);
-  // The channels of the nameless layer do not lie side by side.
+  // The channels of the layer without a name are not adjacent.
   EXPECT_EQ(pixel({{"", {"B", "D.B", "D.G", "D.R", "G", "R"}}}), vec3(6, 5, 1));
   EXPECT_EQ(pixel({{"", {"Layer.Combined.b", "Layer.Combined.g", "Layer.Combined.r", "Layer.Emit.R"}}}),
             vec3(3, 2, 1));

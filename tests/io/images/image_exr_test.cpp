@@ -133,7 +133,7 @@ TEST(ImageExr, OtherPrimariesBecomeRec709) {
   EXPECT_NEAR(pixel.x, 1.6605f - 2 * 0.5876f - 3 * 0.0728f, 1e-3f);
   EXPECT_NEAR(pixel.y, -0.1246f + 2 * 1.1329f - 3 * 0.0083f, 1e-3f);
   EXPECT_NEAR(pixel.z, -0.0182f - 2 * 0.1006f + 3 * 1.1187f, 1e-3f);
-  // White stays white under another white point (ACES AP0).
+  // White stays white with another white point (ACES AP0).
   Imf::Chromaticities aces({0.7347f, 0.2653f}, {0.0f, 1.0f}, {0.0001f, -0.077f}, {0.32168f, 0.33767f});
   write_channels(path, {"Y"}, &aces);
   pixel = read_image(path).pixels[0];

@@ -16,7 +16,7 @@ namespace {
 using test::code_of;
 using test::ScratchFolder;
 
-/// Values over many orders of magnitude, of both signs where asked for.
+/// Values over many orders of magnitude, of both signs if requested.
 Image test_image(int width, int height, bool negative = false) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> exponent(-12, 12), sign(-1, 1);

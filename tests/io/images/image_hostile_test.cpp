@@ -1,4 +1,5 @@
-// Damaged, lying and oversized pictures: each is refused with a located message, or read; none crashes.
+// Damaged, inconsistent and oversized pictures: each is rejected with a located message, or read; none
+// crashes.
 
 #include "core/error.h"
 #include "io/images/image_file.h"
@@ -84,7 +85,7 @@ TEST(ImageHostile, EveryTruncationIsRefused) {
     std::size_t step = std::max<std::size_t>(1, whole.size() / 150);
     for (std::size_t size = 0; size < whole.size(); size += step) {
       test::write_text(path, whole.substr(0, size));
-      // The run-length code of a TGA has no end that could be missed; there it is enough not to crash.
+      // The run-length encoding of a TGA has no end mark, so truncation may go unnoticed; it must not crash.
       ExitCode code = outcome(path);
       if (ending != ".tga" && ending != ".bmp") {
         EXPECT_EQ(code, ExitCode::bad_input) << name << " cut to " << size << " of " << whole.size();
@@ -133,7 +134,7 @@ TEST(ImageHostile, SizesAboveTheCapsAreLimitErrors) {
 
 TEST(ImageHostile, SmallFilesThatClaimMuchAreRefused) {
   ScratchFolder folder;
-  // Below the caps, but of a size that the file cannot hold: refused before pixels are allocated.
+  // Sizes within the limits but too large for the file: rejected before pixels are allocated.
   for (const char* content :
        {"P6\n60000 4000\n255\n", "PF\n60000 4000\n-1\n", "#?RADIANCE\n\n-Y 60000 +X 4000\n"}) {
     test::write_text(folder / "a.x", content);
@@ -160,7 +161,7 @@ TEST(ImageHostile, AHuffmanTableWithTooManyCodesIsRefused) {
   jpg.replace(table + 5, 16, 16, '\xff'); // 16 * 255 codes
   test::write_text(folder / "b.jpg", jpg);
   EXPECT_EQ(outcome(folder / "b.jpg"), ExitCode::bad_input);
-  // A fill byte before the first marker: some decoders take it.
+  // A fill byte before the first marker, which some decoders accept.
   for (const char* name : {"c.jpg", "c.tga"}) {
     test::write_text(folder / name, "\xff" + jpg);
     EXPECT_EQ(outcome(folder / name), ExitCode::bad_input);

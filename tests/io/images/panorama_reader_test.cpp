@@ -1,4 +1,4 @@
-// Panoramas from files: what is read, corrected, refused.
+// Panoramas from files: reading, corrections, errors.
 
 #include "io/images/image_file.h"
 #include "io/images/panorama_reader.h"
@@ -40,7 +40,7 @@ TEST_F(PanoramaReader, CorrectsWhatCannotBeRadiance) {
   EXPECT_TRUE(test::says(files.without_folder(warnings.warnings()[2].text), "sky.pfm: values below 0"));
 }
 
-// Of a half that is infinite no more is known than that it was above 65504.
+// An infinite half only means a value above 65504.
 TEST_F(PanoramaReader, InfinityIsMoreThanAHalfHolds) {
   Image image = grey(2, 1);
   image.pixels = {{kInfinity, 1, 1}, {836, -kInfinity, 3}};

@@ -59,7 +59,7 @@ TEST(PngText, RefusesDamagedChunks) {
     EXPECT_THROW(png_text(with_chunk_body(body), "a", kWhere), Error) << testing::PrintToString(body);
 }
 
-// 300 MiB of zeros are 300 kB of zlib: refused before they are all unpacked.
+// 300 MiB of zeros are 300 kB of zlib: rejected before all are decompressed.
 TEST(PngText, RefusesTextsThatUnpackWithoutEnd) {
   const Bytes png = with_text("a", std::string(kMaxPictureText + 1, '\0'));
   try {

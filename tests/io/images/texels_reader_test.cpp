@@ -1,4 +1,4 @@
-// Textures keep what their files hold.
+// Textures keep the precision of their files.
 
 #include "io/images/image_file.h"
 #include "io/images/texels_reader.h"

@@ -1,4 +1,4 @@
-// MTL in the dialects of the programs that write it.
+// MTL as written by various programs.
 
 #include "io/obj/map_statement.h"
 #include "io/scene_files.h"
@@ -100,7 +100,7 @@ TEST_F(MtlReader, StatementsThatDoNotFitAreIgnoredAlone) {
   EXPECT_TRUE(warned("1 x y.mtl:2:1: newmtl without a name"));
 }
 
-// Kd .8, Ks .5, Ns 250 is what Blender writes of its default material.
+// Kd .8, Ks .5, Ns 250 is Blender's output for its default material.
 TEST_F(MtlReader, KsBesideKdIsTheHighlightOfAPlastic) {
   Material m =
       material("Ns 250\nKa 1 1 1\nKd 0.8 0.8 0.8\nKs 0.5 0.5 0.5\nKe 0 0 0\nNi 1.45\nd 1\nillum 2\n");
@@ -156,7 +156,7 @@ TEST_F(MtlReader, PathsOfOtherMachinesMeanTheFileBeside) {
 TEST_F(MtlReader, ABlackKdDoesNotHideItsTexture) {
   files.write("t.png", test::tiny_png());
   EXPECT_EQ(color(material("Kd 0 0 0\nmap_Kd t.png\n"), "diffuse"), vec3(1));
-  EXPECT_TRUE(warned("1 x x.mtl:1:1: Kd is black beside map_Kd"));
+  EXPECT_TRUE(warned("1 x x.mtl:1:1: Kd is black although there is a map_Kd"));
 }
 
 TEST_F(MtlReader, HowTfWasReadIsTold) {

@@ -1,4 +1,4 @@
-// What is broken in an OBJ costs its own vertex, attribute or face, and is told of with its place.
+// Errors in an OBJ only affect their own vertex, attribute or face, and are reported with a location.
 
 #include "io/scene_files.h"
 #include "support/materials.h"
@@ -85,7 +85,7 @@ TEST_F(ObjDamage, FillerAtTheEndsIsNoText) {
   EXPECT_EQ(loaded.warnings.size(), 2u);
 }
 
-// As editors on Windows save it: U+00FC is in the name, U+1F600 takes two units.
+// UTF-16 as saved by editors on Windows: U+00FC is in the name, U+1F600 takes two units.
 TEST_F(ObjDamage, TextInUtf16IsRead) {
   const std::u16string text =
       u"\ufeffv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nusemtl gr\u00fcn\U0001F600\r\nf 1 2 3\r\n";

@@ -26,7 +26,7 @@ struct ObjReader : ::testing::Test {
     files.write("x.obj", obj);
     return files.error("x.obj", code);
   }
-  /// The material that the only slot of a triangle gets.
+  /// The material of a triangle's only slot.
   Material material(const std::string& mtl) {
     LoadedScene loaded = read(std::string(kTriangle), "newmtl m\n" + mtl);
     warnings = files.warnings(loaded);
@@ -100,8 +100,8 @@ TEST_F(ObjReader, DropsAndCountsWhatHasNoArea) {
             (std::vector<std::string>{"2 x x.obj:10:1: faces with fewer than three corners are dropped",
                                       "1 x x.obj:12:1: 'l' is ignored",
                                       "3 x x.obj:7: triangles without area are dropped",
-                                      "1 x x.obj: faces without a material: a grey is taken",
-                                      "1 x x.obj: nothing shines: a constant light is added"}));
+                                      "1 x x.obj: faces without a material: a grey one is used",
+                                      "1 x x.obj: nothing emits light: a constant light is added"}));
 }
 
 TEST_F(ObjReader, ReadsEverySpelling) {
@@ -188,7 +188,7 @@ TEST_F(ObjReader, MaterialTypes) {
   EXPECT_EQ(color(m, "diffuse"), vec3(0.5f));
   EXPECT_EQ(color(m, "specular"), kPlasticSpecular * vec3(0.25f, 0, 0.5f)) << "the highlight of a plastic";
   EXPECT_EQ(number(m, "exponent"), 33);
-  EXPECT_TRUE(warnings.back().find("nothing shines") != std::string::npos && warnings.size() == 1u)
+  EXPECT_TRUE(warnings.back().find("nothing emits light") != std::string::npos && warnings.size() == 1u)
       << warnings[0];
   m = material("Kd 0.01 0.01 0.01\nKs 0.95 0.95 0.95\nNs 1000\nillum 5\n");
   EXPECT_EQ(material_type_name(m), "mirror");
@@ -270,9 +270,9 @@ TEST_F(ObjReader, SlotsAndLibraries) {
             (std::vector<std::string>{
                 "1 x second.mtl:3:1: a material of this name is there already: the first one counts",
                 "1 x x.obj:1:1: the material library 'none.mtl' is missing",
-                "1 x x.obj: faces without a material: a grey is taken",
-                "1 x x.obj: there is no material 'c': a grey is taken",
-                "1 x x.obj: nothing shines: a constant light is added"}));
+                "1 x x.obj: faces without a material: a grey one is used",
+                "1 x x.obj: there is no material 'c': a grey one is used",
+                "1 x x.obj: nothing emits light: a constant light is added"}));
   files.write("my lib.mtl", "newmtl m\nKd 1 0 0\n");
   EXPECT_EQ(color(read("mtllib my lib.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n")
                       .document.scene.materials[0],

@@ -57,7 +57,7 @@ TEST(ObjWriter, NamesSlotsAndLibrary) {
   write_obj(mesh, "some.mtl", scratch / "mesh.obj");
   const LoadedScene loaded = read_scene(scratch / "mesh.obj");
   for (const Warning& w : loaded.warnings)
-    EXPECT_NE(w.text.find("nothing shines"), std::string::npos) << w.text;
+    EXPECT_NE(w.text.find("nothing emits light"), std::string::npos) << w.text;
   const Mesh got = read_back(scratch / "mesh.obj");
   EXPECT_EQ(got.slot_names, (std::vector<std::string>{"right", "left"})); // in the order of their use
   const Instance& instance = loaded.document.scene.instances.at(0);

@@ -23,8 +23,8 @@ double area(const std::vector<vec3>& p, std::span<const int> corners) {
   return sum;
 }
 
-/// n - 2 triangles of the polygon's orientation whose areas add up to the polygon's: with the count, that is
-/// only so if they cover it once.
+/// Checks for n - 2 triangles of the polygon's orientation whose areas sum to the polygon's: then they cover
+/// it exactly once.
 void expect_partition(const std::vector<vec3>& polygon) {
   Triangles triangles;
   triangulate(polygon, triangles);

@@ -1,4 +1,4 @@
-// Cameras that refuse samples or weigh them: what becomes of the picture.
+// Cameras that reject or weight samples.
 
 #include "render/camera/thin_lens_camera.h"
 #include "render/render_testing.h"

@@ -1,4 +1,4 @@
-// What lies under a pixel.
+// Picking: the surface under a pixel.
 
 #include "render/camera/picking.h"
 #include "render/render_testing.h"

@@ -1,4 +1,4 @@
-// Where camera rays go, and how the points of the lens lie.
+// Camera rays, and the distribution of lens points.
 
 #include "render/camera/thin_lens_camera.h"
 #include "render/render_testing.h"

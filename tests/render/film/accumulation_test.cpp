@@ -1,5 +1,5 @@
-// An accumulation gives the same bits in any portions, stopped and saved anywhere, and stops where its rules
-// say.
+// An accumulation gives the same bits for any division into passes, interrupted and saved anywhere, and stops
+// by its criteria.
 
 #include "render/film/accumulation.h"
 #include "render/film/film_view.h"

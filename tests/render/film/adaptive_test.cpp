@@ -1,4 +1,4 @@
-// Sampling that stops where it is good enough.
+// Adaptive sampling.
 
 #include "imaging/compare.h"
 #include "render/film/film_view.h"

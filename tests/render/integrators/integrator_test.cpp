@@ -1,4 +1,4 @@
-// The integrators beside the path tracer, splitting, and light kept apart by path length.
+// The other integrators, path splitting, and components by path length.
 
 #include "render/closed_forms.h"
 #include "render/film/film_view.h"

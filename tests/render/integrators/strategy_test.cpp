@@ -1,4 +1,4 @@
-// All settings of the path that claim to be unbiased have the same expectation.
+// All unbiased settings of the path tracer have the same expectation.
 
 #include "render/quadrants.h"
 #include "render/strategy_scenes.h"

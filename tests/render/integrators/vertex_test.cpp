@@ -1,4 +1,4 @@
-// A hit made ready for scattering.
+// Path vertices: hits prepared for scattering.
 
 #include "render/integrators/transport.h"
 #include "render/render_testing.h"

@@ -1,4 +1,4 @@
-// What the views show.
+// The views of a render.
 
 #include "render/film/film_view.h"
 #include "render/strategy_scenes.h"
@@ -79,7 +79,7 @@ TEST(ViewRender, TheLightShareIsWhatTheStrategyFinds) {
     EXPECT_TRUE(share.x >= 0 && share.x <= 1) << share.x;
     sum += static_cast<double>(share.x);
   }
-  EXPECT_GT(sum / 64, 0.5); // the lamp is small: aiming finds most of its light
+  EXPECT_GT(sum / 64, 0.5); // the lamp is small: light sampling finds most of its light
   EXPECT_LT(sum / 64, 1);
 }
 

@@ -1,4 +1,4 @@
-// Panoramas: where they have which direction, how they are sampled, and what they light.
+// Panoramas: mappings of directions, sampling, illumination.
 
 #include "lights/environment_map.h"
 #include "render/render_testing.h"

@@ -1,6 +1,6 @@
-// One predicate, LightSamplingContext::accepts, says where light may come from: the choice of a light, the
-// sample and the density that MIS is told must agree about it, also for surfaces that transmit and for points
-// in a medium.
+// The predicate LightSamplingContext::accepts determines the directions from which light may come. Light
+// selection, samples and the pdf for MIS must agree with it, also for transmitting surfaces and points in a
+// medium.
 
 #include "render/integrators/direct_light.h"
 #include "render/render_testing.h"

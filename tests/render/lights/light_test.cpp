@@ -1,5 +1,5 @@
-// Each light's sample() against its pdf(), over the directions in which an intersection written apart finds
-// the light.
+// Each light's sample() against its pdf(), over the directions in which an independent intersection finds the
+// light.
 
 #include "core/hash.h"
 #include "render/lights/light_lanes.h"

@@ -1,4 +1,4 @@
-// Choosing among lights by what they may contribute.
+// Light selection by estimated contribution.
 
 #include "materials/bsdf.h"
 #include "render/lights/light_selection.h"

@@ -1,4 +1,4 @@
-// Emission and opacity that textures give.
+// Textured emission and opacity.
 
 #include "render/render_testing.h"
 #include "render/world/render_scene.h"

@@ -1,4 +1,4 @@
-// What a hit becomes, what the film knows, and what a texture says.
+// Surfaces at hits, their footprints, and texture lookups.
 
 #include "render/film/film_view.h"
 #include "render/render_testing.h"

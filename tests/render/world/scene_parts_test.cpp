@@ -1,4 +1,4 @@
-// What an edit of a document builds anew, and what it keeps.
+// The parts of a scene that an edit rebuilds or keeps.
 
 #include "render/strategy_scenes.h"
 

@@ -1,4 +1,4 @@
-// The shapes that are made of triangles: closed, of the right size, with their normals outside.
+// Shapes made of triangles: closed, of the right size, with outward normals.
 
 #include "render/render_testing.h"
 #include "render/world/shape_mesh.h"

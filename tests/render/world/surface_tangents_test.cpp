@@ -1,4 +1,4 @@
-// Tangents and footprints of texture coordinates, against coordinates of points nearby.
+// Tangents and footprints of texture coordinates, against finite differences.
 
 #include "render/camera/camera_model.h"
 #include "render/camera/camera_view.h"

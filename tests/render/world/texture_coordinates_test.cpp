@@ -1,5 +1,5 @@
-// Texture coordinates belong to a shape's own space: they go where its transform takes it, whatever that
-// turns, mirrors or stretches, and whether the shape stays what it is or becomes triangles.
+// Texture coordinates are defined in object space: they follow the object's transform, including rotations,
+// reflections and non-uniform scales, for analytic shapes and for those converted to triangles.
 
 #include "render/camera/picking.h"
 #include "render/render_testing.h"

@@ -1,4 +1,4 @@
-// Where a material looks its textures up, and what it makes of them.
+// Texture lookups of materials: coordinates and values.
 
 #include "render/world/surface_material.h"
 #include "support/textures.h"
