@@ -62,9 +62,14 @@ void each_parameter(M& material, Visit visit) {
     if (row.parameter != nullptr) visit(row, row.parameter(const_cast<Material&>(material)));
 }
 
-/// What light that enters the surface fades by: sigma_a of the inside, 1/scene unit; nothing where no light
-/// enters.
-std::optional<vec3> inside_absorption(const MaterialModel& model);
+/// The body that a surface bounds.
+struct Interior {
+  vec3 absorption{0}; ///< what light in it fades by: sigma_a, 1/scene unit
+  float ior = 1;      ///< as its neighbours see it: of one that a texture gives, the factor
+  int priority = 0;   ///< as MediumId has it
+};
+/// Nothing where no light enters.
+std::optional<Interior> interior(const MaterialModel& model);
 
 /// Calls use(closure) with the closure (bsdf/) of the model, at(parameter) being a parameter's value.
 template <class At, class Use>
