@@ -39,7 +39,14 @@ inline bool can_cut(const AccelInput& input) {
 /// Knows the primitives behind the refs.
 class Cutter {
 public:
-  explicit Cutter(const AccelInput& input) : input_(input) {}
+  explicit Cutter(const AccelInput& input) : input_(input) {
+    PrimitiveKinds::for_each(
+        [&]<class Kind>() { cuts_all_ &= CuttableKind<Kind> || Kind::count(input) == 0; });
+  }
+
+  /// Whether the primitive, or any, can be cut.
+  bool cuts(const BuildRef& ref) const { return cuts_all_ || cuttable(ref.kind()); }
+  bool cuts_all() const { return cuts_all_; }
 
   /// Of a primitive of a cuttable kind, within the ref's box.
   Parts cut(const BuildRef& ref, const BuildBox& box, std::size_t axis, float plane) const {
@@ -66,6 +73,7 @@ private:
   }
 
   const AccelInput& input_;
+  bool cuts_all_ = true;
 };
 
 /// Bins of equal width over the box of a range, along one axis.
@@ -85,21 +93,22 @@ public:
 
   /// The bins that a ref reaches from and to; of what cannot be cut, that of its centre.
   int first_bin(const BuildRef& ref) const {
-    if (!cuttable(ref.kind())) return bin(0.5f * (ref.lo[axis_] - ref.negated_hi[axis_]));
-    return bin(ref.lo[axis_]);
+    return cutter_.cuts(ref) ? bin(ref.lo[axis_]) : bin(0.5f * (ref.lo[axis_] - ref.negated_hi[axis_]));
   }
   int last_bin(const BuildRef& ref) const {
-    const int first = first_bin(ref);
-    if (!cuttable(ref.kind())) return first;
-    // What ends where a bin begins does not reach into it.
-    const float hi = -ref.negated_hi[axis_];
-    const int last = bin(hi);
-    return last > first && plane(last) >= hi ? last - 1 : last;
+    return cutter_.cuts(ref) ? last_bin(bin(ref.lo[axis_]), -ref.negated_hi[axis_]) : first_bin(ref);
   }
 
   /// Borders of bins that refs reach across.
   std::size_t crossings(const BuildRef* from, const BuildRef* to) const {
     std::size_t sum = 0;
+    if (cutter_.cuts_all()) { // without a look at their kinds the loop is made of vectors
+      for (; from != to; ++from) {
+        const int first = bin(from->lo[axis_]);
+        sum += static_cast<std::size_t>(last_bin(first, -from->negated_hi[axis_]) - first);
+      }
+      return sum;
+    }
     for (; from != to; ++from) sum += static_cast<std::size_t>(last_bin(*from) - first_bin(*from));
     return sum;
   }
@@ -152,6 +161,11 @@ public:
   }
 
 private:
+  /// What ends where a bin begins does not reach into it.
+  int last_bin(int first, float hi) const {
+    const int last = bin(hi);
+    return last > first && plane(last) >= hi ? last - 1 : last;
+  }
   int bin(float x) const { return std::clamp(static_cast<int>((x - origin_) * scale_), 0, kBins - 1); }
 
   const Cutter& cutter_;

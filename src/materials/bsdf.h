@@ -98,4 +98,14 @@ inline Spectrum bsdf_albedo(const Bsdf& bsdf) {
   return visit_variant([](const auto& model) { return model.albedo(); }, bsdf);
 }
 
+/// Makes a closure whose inside has an index of refraction over vacuum that of its surface where this one is
+/// outside: by its member with_outside_ior, where it has that.
+inline void set_outside_ior(Bsdf& bsdf, float outside) {
+  visit_variant(
+      [&](auto& model) {
+        if constexpr (requires { model.with_outside_ior(outside); }) model = model.with_outside_ior(outside);
+      },
+      bsdf);
+}
+
 } // namespace candela

@@ -115,13 +115,17 @@ bool is_textured(const Material& material) {
   return any;
 }
 
-std::optional<vec3> inside_absorption(const MaterialModel& model) {
+std::optional<Interior> interior(const MaterialModel& model) {
   return std::visit(
-      [](const auto& m) -> std::optional<vec3> {
-        if constexpr (requires { m.absorption; })
-          return m.absorption;
-        else
+      [](const auto& m) -> std::optional<Interior> {
+        if constexpr (requires { m.absorption; }) {
+          Interior inside{m.absorption};
+          if constexpr (requires { m.ior; }) inside.ior = m.ior.value;
+          if constexpr (requires { m.priority; }) inside.priority = m.priority;
+          return inside;
+        } else {
           return std::nullopt;
+        }
       },
       model);
 }

@@ -62,8 +62,14 @@ void each_parameter(M& material, Visit visit) {
     if (row.parameter != nullptr) visit(row, row.parameter(const_cast<Material&>(material)));
 }
 
-/// The absorption coefficient sigma_a of the inside, 1/scene unit; nothing if no light enters the surface.
-std::optional<vec3> inside_absorption(const MaterialModel& model);
+/// The body that a surface bounds.
+struct Interior {
+  vec3 absorption{0}; ///< absorption coefficient sigma_a, 1/scene unit
+  float ior = 1;      ///< index of refraction over vacuum or over the outside; of a textured one, its factor
+  int priority = 0;   ///< as MediumId has it
+};
+/// Nothing if no light enters the surface.
+std::optional<Interior> interior(const MaterialModel& model);
 
 /// Calls use(closure) with the closure (bsdf/) of the model, at(parameter) being a parameter's value.
 template <class At, class Use>

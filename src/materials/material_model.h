@@ -9,6 +9,8 @@
 // A model whose inside light may enter also has:
 //
 //   absorption   sigma_a of the inside, 1/scene unit
+//   ior          index of refraction of the inside (optional)
+//   priority     which body fills the place where several overlap (optional, with ior)
 
 #include "materials/parameter.h"
 
@@ -21,7 +23,8 @@ namespace candela {
 template <class Model>
 struct ModelRow : FieldInfo {
   /// A parameter may be a texture; a plain value belongs to the inside, and is the same everywhere.
-  std::variant<NumberParameter Model::*, ColorParameter Model::*, vec3 Model::*, bool Model::*> member;
+  std::variant<NumberParameter Model::*, ColorParameter Model::*, vec3 Model::*, bool Model::*, int Model::*>
+      member;
   /// Whether it means the same as other models' values of the same key, so that a change of the type keeps
   /// it.
   bool kept = true;

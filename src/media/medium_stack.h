@@ -13,7 +13,9 @@ struct MediumId {
   static constexpr std::uint16_t kNone = 0xffff;
 
   std::uint16_t index = kNone;
-  std::int16_t priority = 0; ///< the higher one fills the place where bodies overlap
+  /// The higher one fills the place where bodies overlap. The surfaces of one that has any (> 0) are none
+  /// inside of a higher one.
+  std::int16_t priority = 0;
 
   explicit operator bool() const { return index != kNone; }
   friend bool operator==(MediumId, MediumId) = default;
@@ -53,6 +55,24 @@ public:
     enter(from_outside ? surface.inside : surface.outside);
   }
 
+  /// Whether the point lies inside of a body of higher priority than the one that the surface bounds: the
+  /// surface is a false intersection, and nothing but the list of bodies changes there. The point lies on the
+  /// surface's outside or on its inside. Of equal ones, which should not overlap, the one that was entered
+  /// last is the higher.
+  bool hides(const MediumInterface& surface, bool from_outside) const {
+    if (surface.inside.priority <= 0) return false;
+    const MediumId filling = current();
+    if (!from_outside && contains(surface.inside)) return filling != surface.inside;
+    return filling && filling.priority > surface.inside.priority;
+  }
+  /// What fills the outside of the surface, which the point lies on either side of.
+  MediumId outside_of(const MediumInterface& surface, bool from_outside) const {
+    if (from_outside) return current();
+    MediumStack outside = *this;
+    outside.cross(surface, false);
+    return outside.current();
+  }
+
   bool empty() const { return count_ == 0; }
   /// The medium of the point; none outside of all bodies.
   MediumId current() const {
@@ -63,6 +83,11 @@ public:
   }
 
 private:
+  bool contains(MediumId medium) const {
+    const auto end = media_.begin() + count_;
+    return std::find(media_.begin(), end, medium) != end;
+  }
+
   std::array<MediumId, 7> media_{};
   std::uint32_t count_ = 0;
 };

@@ -151,6 +151,27 @@ TEST(Dielectric, EqualIndicesAreNoSurface) {
   }
 }
 
+TEST(Dielectric, OfEqualIndicesIsNoInterface) {
+  SCOPED_TRACE(seed_note());
+  Random random(12);
+  const Dielectric none = Dielectric{1.37f, vec3(1)}.with_outside_ior(1.37f);
+  for (int i = 0; i < 1000; ++i) {
+    vec3 wo = random.direction();
+    if (i % 2 == 0) wo = glm::normalize(vec3(wo.x, wo.y, 1e-5f * wo.z)); // grazing
+    const auto s = none.sample(wo, random.three());
+    ASSERT_TRUE(s);
+    EXPECT_EQ(s->wi, -wo);
+    EXPECT_EQ(s->weight, vec3(1));
+    EXPECT_EQ(s->pdf, 1);
+  }
+}
+
+TEST(Dielectric, CountsItsIndexAgainstTheOutside) {
+  const Dielectric ice = Dielectric{1.31f, vec3(0.5f)}.with_outside_ior(1.33f);
+  EXPECT_FLOAT_EQ(ice.ior, 1.31f / 1.33f);
+  EXPECT_EQ(ice.transmittance, vec3(0.5f));
+}
+
 TEST(DielectricStatistical, ReflectsByTheFresnelShare) {
   SCOPED_TRACE(seed_note());
   Random random(5);

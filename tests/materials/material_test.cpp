@@ -84,7 +84,10 @@ TEST(MaterialChoice, HasEveryKeyOfEveryTypeOnce) {
       ASSERT_EQ(material_type(m), type);
       if (to == nullptr) continue;
       EXPECT_EQ(row.type, to->type);
-      field_from_text(row, row.address(choice), row.type == FieldType::color ? "0.25 0.5 0.75" : "0.5");
+      field_from_text(row, row.address(choice),
+                      row.type == FieldType::color     ? "0.25 0.5 0.75"
+                      : row.type == FieldType::integer ? "5"
+                                                       : "0.5");
       m = chosen_material(choice, true);
       EXPECT_EQ(field_text(*to, m), field_text(row, choice));
       EXPECT_EQ(is_parameter_key(row.key), to->parameter != nullptr);
@@ -115,9 +118,12 @@ TEST(MaterialChoice, TheOverrideHasASettingForEachKey) {
 TEST(Material, InsidesAbsorbWhereLightEnters) {
   for (int type = 0; type < kMaterialTypeCount; ++type) {
     Material m = default_material(type);
-    EXPECT_EQ(inside_absorption(m.model).has_value(), has(m, "absorption"));
+    EXPECT_EQ(interior(m.model).has_value(), has(m, "absorption"));
   }
-  EXPECT_EQ(inside_absorption(DielectricMaterial{1.5f, vec3(1), {1, 2, 3}}), vec3(1, 2, 3));
+  const std::optional<Interior> inside = interior(DielectricMaterial{1.4f, vec3(1), {1, 2, 3}, 7});
+  EXPECT_EQ(inside->absorption, vec3(1, 2, 3));
+  EXPECT_EQ(inside->ior, 1.4f);
+  EXPECT_EQ(inside->priority, 7);
 }
 
 } // namespace

@@ -45,6 +45,48 @@ TEST(MediumStack, TheHighestPriorityFillsThePointInWhateverOrder) {
   EXPECT_TRUE(in.empty());
 }
 
+TEST(MediumStack, SurfacesInsideOfHigherBodiesAreHidden) {
+  const MediumInterface water{medium(1, 1), {}}, glass{medium(0, 2), {}}, plain{medium(5), {}};
+  MediumStack in;
+  EXPECT_FALSE(in.hides(water, true));
+  in.cross(glass, true);
+  EXPECT_TRUE(in.hides(water, true));
+  EXPECT_FALSE(in.hides(glass, false));
+  EXPECT_FALSE(in.hides(glass, true)); // another of the same
+  EXPECT_FALSE(in.hides(plain, true)) << "no priority: is always there";
+  in.cross(water, true);
+  EXPECT_TRUE(in.hides(water, false));
+  EXPECT_FALSE(in.hides(glass, false));
+  in.cross(glass, false);
+  EXPECT_FALSE(in.hides(water, false));
+  EXPECT_FALSE(in.hides(glass, true));
+  in.cross(water, false);
+  EXPECT_FALSE(in.hides(glass, false)) << "left without having been entered";
+}
+
+TEST(MediumStack, WhatLiesOutsideOfASurface) {
+  const MediumInterface water{medium(1, 1), {}}, glass{medium(0, 2), {}};
+  MediumStack in;
+  EXPECT_FALSE(in.outside_of(water, true));
+  in.cross(water, true);
+  EXPECT_FALSE(in.outside_of(water, false));
+  EXPECT_EQ(in.outside_of(glass, true), medium(1, 1));
+  in.cross(glass, true);
+  EXPECT_EQ(in.outside_of(glass, false), medium(1, 1));
+  in.cross(water, false);
+  EXPECT_FALSE(in.outside_of(glass, false));
+}
+
+TEST(MediumStack, OfEqualPriorityTheFirstEnteredIsHiddenInTheOther) {
+  const MediumInterface a{medium(1, 1), {}}, b{medium(2, 1), {}};
+  MediumStack in;
+  in.cross(a, true);
+  EXPECT_FALSE(in.hides(b, true));
+  in.cross(b, true);
+  EXPECT_TRUE(in.hides(a, false));
+  EXPECT_FALSE(in.hides(b, false));
+}
+
 TEST(MediumStack, EqualMediaOfDifferentPriorityAreDifferentBodies) {
   MediumStack in;
   in.enter(medium(4, 1));

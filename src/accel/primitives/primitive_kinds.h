@@ -3,17 +3,18 @@
 // lists; bounds, splits, packs, intersection, occlusion, statistics and memory follow from it.
 //
 // A kind is a struct of static members (see PrimitiveKindModel):
-//   Input          the fields that it adds to AccelInput
-//   Pack           up to kLeafCapacity primitives as they lie in memory
-//   kLeafCost      of testing a pack, in node visits, for the surface area heuristic
-//   count, bounds  of the input; empty bounds leave a primitive out
-//   fill           makes a pack
-//   intersect      the lanes of a pack that a ray hits with t in (t_min, t_max), and their t: a template over
-//   the SIMD
-//                  implementation. Occlusion asks the same.
-//   parameters     Hit::u and v of the lane that is the closest hit
-//   cut            optional: the boxes of the parts on both sides of a plane. Kinds with it take part in
-//   spatial splits.
+//
+// - Input: the fields that it adds to AccelInput.
+// - Pack: up to kLeafCapacity primitives as they lie in memory.
+// - kLeafCost: of testing a pack, in node visits, for the surface area heuristic.
+// - count, bounds: of the input; empty bounds leave a primitive out.
+// - fill: makes a pack.
+// - intersect: the lanes of a pack that a ray hits with t in (t_min, t_max), and their t: a template over the
+//   SIMD implementation. Occlusion asks the same.
+// - parameters: Hit::u and v of the lane that is the closest hit.
+// - cut: optional, the boxes of the parts on both sides of a plane. Kinds with it take part in spatial
+//   splits.
+//
 // Two kinds have no intersect: the traversal tests triangles itself, in registers, and enters the trees of
 // instances.
 

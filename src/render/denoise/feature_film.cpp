@@ -1,6 +1,7 @@
 #include "render/denoise/feature_film.h"
 
 #include "materials/direction_sampling.h"
+#include "render/camera/camera_view.h"
 #include "render/camera/pixel_rays.h"
 #include "render/integrators/path_integrator.h"
 
@@ -30,15 +31,17 @@ public:
   }
 
   /// The sampler stands at the ray's sample; its numbers take the features through glass the way that the
-  /// image's path goes.
-  Features trace(Ray ray, Sampler& sampler) const {
+  /// image's path goes. `media` are the ray's, in scenes with any.
+  Features trace(Ray ray, const MediumStack& media, Sampler& sampler) const {
     Features seen;
     vec3 tint(1);
     RayCounts ignored;
+    MediaPassage passage{media, Spectrum(1)};
     for (int depth = 1;; ++depth) {
       sampler.set_bounce(static_cast<std::uint32_t>(depth));
       Hit hit;
-      if (!intersect_scene(scene_, ray, sampler, hit, ignored)) {
+      if (!intersect_scene(scene_, ray, sampler, hit, ignored,
+                           scene_.has_priorities() ? &passage : nullptr)) {
         seen.albedo = seen.normal = vec3(0);
         seen.position = ray.direction; // farther than the whole scene, so that it differs
         return seen;
@@ -48,6 +51,8 @@ public:
       vec3 wo = -ray.direction;
       Bsdf bsdf = material.textured != nullptr ? evaluate_bsdf(material, scene_.geometry().uv(ray, hit))
                                                : material.bsdf;
+      const bool outside = glm::dot(surface.geometric_normal, wo) > 0;
+      set_outside(scene_, material, passage.media, outside, bsdf);
       Basis frame = Basis::from_normal(surface.shading_normal);
       vec3 wo_local = frame.to_local(wo);
       // Lamps are told from what is around them by a reflectance in [0, 1], however bright they are.
@@ -64,6 +69,7 @@ public:
       if (!s) return seen;
       tint *= glm::min(s->weight, 1.0f);
       vec3 wi = frame.to_world(s->wi);
+      if (!same_hemisphere(wo_local, s->wi)) passage.media.cross(material.media, outside);
       ray = {offset_ray_origin(surface.position, surface.position_error, surface.geometric_normal, wi), 0, wi,
              kInfinity};
     }
@@ -107,6 +113,9 @@ bool render_features(const RenderScene& scene, const Document& document, std::ui
   if (spp <= film.spp_) return true;
   const PixelRays rays(document);
   const FeatureTracer tracer(scene, document.settings.path);
+  const FilmSettings& whole = document.settings.film;
+  const MediaNear camera_media(scene,
+                               CameraView(document.scene.camera, whole.width, whole.height).position());
   bool stopped = false;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads > 0 ? threads : omp_get_num_procs())       \
     reduction(||                                                                                             \
@@ -125,7 +134,7 @@ bool render_features(const RenderScene& scene, const Document& document, std::ui
       for (std::uint32_t i = film.spp_; i < spp; ++i) {
         const auto start = rays.start(uvec2(film.origin_ + ivec2(x, y)), i, sampler);
         if (!start) continue; // black
-        const Features f = tracer.trace(start->ray, sampler);
+        const Features f = tracer.trace(start->ray, camera_media.at(start->ray.origin), sampler);
         const vec3* groups[] = {&f.albedo, &f.normal, &f.position};
         for (std::size_t k = 0; k < FeatureFilm::kChannels; ++k) {
           float v = start->weight * (*groups[k / 3])[static_cast<glm::length_t>(k % 3)];

@@ -7,10 +7,10 @@ namespace candela {
 
 namespace {
 
-PathSample ambient_occlusion_sample(const RenderScene& scene, const Ray& ray, Sampler& sampler,
+PathSample ambient_occlusion_sample(const RenderScene& scene, const PathStart& start, Sampler& sampler,
                                     const RenderSettings& settings, RayCounts& counts) {
   PathSample sample;
-  sample.direct = vec3(ambient_occlusion(scene, ray, sampler, settings, counts));
+  sample.direct = vec3(ambient_occlusion(scene, start, sampler, settings, counts));
   return sample;
 }
 
@@ -28,9 +28,7 @@ PixelSampler::PixelSampler(const RenderScene& scene, const Document& document, c
     : stop_(stop), scene_(scene), settings_(document.settings), view_(accumulated_view(settings_.view)),
       camera_view_(document.scene.camera, document.settings.film.width, document.settings.film.height),
       rays_(document, std::move(camera)), sampler_(PixelRays::sampler(settings_.sampler)),
-      paths_(scene, path_settings(settings_)) {
-  if (scene.has_media()) camera_media_ = media_at(scene, camera_view_.position());
-}
+      paths_(scene, path_settings(settings_)), camera_media_(scene, camera_view_.position()) {}
 
 bool PixelSampler::sample(std::span<const SampleIndex> indices, std::span<PixelSample> results,
                           RayCounts& counts) {
@@ -101,9 +99,7 @@ void PixelSampler::start(std::span<const SampleIndex> indices) {
     if (!weight) continue;
     weights_[count] = *weight;
     sample_of_[count++] = i;
-    if (!scene_.has_media()) continue;
-    start.media = camera_media_;
-    move_between(scene_, camera_view_.position(), start.ray.origin, start.media);
+    if (scene_.has_media()) start.media = camera_media_.at(start.ray.origin);
   }
   starts_.erase(starts_.begin() + static_cast<std::ptrdiff_t>(count), starts_.end());
 }
@@ -120,8 +116,9 @@ void PixelSampler::view_first_hits(std::span<PixelSample> results, RayCounts& co
   scene_.geometry().accel().intersect(camera_rays_, hits_);
   counts.closest += starts_.size();
   for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
-    results[sample_of_[i]] = {first_hit_value(scene_, starts_[i].ray, hits_[i].t < kInfinity, hits_[i],
-                                              camera_view_.forward(), view_, starts_[i].sampler, counts),
+    results[sample_of_[i]] = {first_hit_value(scene_, starts_[i].ray, starts_[i].media,
+                                              hits_[i].t < kInfinity, hits_[i], camera_view_.forward(), view_,
+                                              starts_[i].sampler, counts),
                               {}};
 }
 
@@ -131,7 +128,7 @@ void PixelSampler::sample_singly(PathStart& start, PixelSample& result, RayCount
     show(whitted_radiance(scene_, start, start.sampler, settings_.path, direct_light_, counts, stop_),
          result);
   else
-    show(ambient_occlusion_sample(scene_, start.ray, start.sampler, settings_, counts), result);
+    show(ambient_occlusion_sample(scene_, start, start.sampler, settings_, counts), result);
 }
 
 /// The view's value of the light.

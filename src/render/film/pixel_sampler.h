@@ -52,7 +52,7 @@ private:
   Sampler sampler_; ///< of the document's kind
   PathTracer paths_;
   ScalarDirectLight direct_light_;
-  MediumStack camera_media_; ///< in scenes with media
+  MediaNear camera_media_;
   // Parallel to the samples in flight:
   std::vector<Sampler::Draw> draws_;
   std::vector<vec2> film_, lens_;

@@ -25,17 +25,22 @@ Spectrum bvh_cost_value(const RenderScene& scene, const Ray& ray, RayCounts& cou
   return vec3(static_cast<float>(cost.nodes + cost.packs));
 }
 
-Spectrum first_hit_value(const RenderScene& scene, Ray ray, bool met, Hit hit, vec3 forward, View view,
-                         Sampler& sampler, RayCounts& counts) {
+Spectrum first_hit_value(const RenderScene& scene, Ray ray, const MediumStack& media, bool met, Hit hit,
+                         vec3 forward, View view, Sampler& sampler, RayCounts& counts) {
   const vec3 origin = ray.origin;
   sampler.set_bounce(1);
-  if (!intersect_through_opacity(scene, ray, sampler, met, hit, counts)) return vec3(0);
+  MediaPassage passage{media, Spectrum(1)};
+  if (!intersect_through_opacity(scene, ray, sampler, met, hit, counts,
+                                 scene.has_priorities() ? &passage : nullptr))
+    return vec3(0);
   SurfaceInteraction surface = scene.geometry().surface(ray, hit);
   auto uv = [&] { return scene.geometry().uv(ray, hit); };
   switch (view) {
   case View::albedo: {
     const SurfaceMaterial& material = scene.material(surface.material);
-    return bsdf_albedo(material.textured ? evaluate_bsdf(material, uv()) : material.bsdf);
+    Bsdf bsdf = material.textured ? evaluate_bsdf(material, uv()) : material.bsdf;
+    set_outside(scene, material, passage.media, glm::dot(surface.geometric_normal, ray.direction) < 0, bsdf);
+    return bsdf_albedo(bsdf);
   }
   case View::normal: return towards_viewer(surface.shading_normal, surface, ray);
   case View::geometric_normal: return towards_viewer(surface.geometric_normal, surface, ray);

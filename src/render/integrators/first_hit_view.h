@@ -5,13 +5,13 @@
 
 namespace candela {
 
-/// What a camera ray meets first, if `met`: `hit`, unless that is transparent.
+/// What a camera ray meets first, if `met`: `hit`, unless that is transparent or hidden.
 /// - albedo: rough reflectance; - normal, geometric_normal: towards the viewer, 0.5 n + 0.5;
 /// - depth: along `forward`, scene units; - uv: fractional parts, red and green;
 /// - material: a colour that the material's index chooses.
-/// 0 where the ray leaves the scene.
-Spectrum first_hit_value(const RenderScene& scene, Ray ray, bool met, Hit hit, vec3 forward, View view,
-                         Sampler& sampler, RayCounts& counts);
+/// 0 where the ray leaves the scene. `media` are the ray's, in scenes with any.
+Spectrum first_hit_value(const RenderScene& scene, Ray ray, const MediumStack& media, bool met, Hit hit,
+                         vec3 forward, View view, Sampler& sampler, RayCounts& counts);
 
 /// For View::bvh_cost: the nodes and packs of primitives that the ray tests.
 Spectrum bvh_cost_value(const RenderScene& scene, const Ray& ray, RayCounts& counts);

@@ -12,4 +12,23 @@ MediumStack media_at(const RenderScene& scene, vec3 point);
 /// `media` of `from` become those of `to`.
 void move_between(const RenderScene& scene, vec3 from, vec3 to, MediumStack& media);
 
+/// The media of points near one, as those of a lens are: found once for that one. None in scenes without any.
+class MediaNear {
+public:
+  /// Refers to the scene, which must outlive it.
+  MediaNear(const RenderScene& scene, vec3 point)
+      : scene_(scene), point_(point), media_(scene.has_media() ? media_at(scene, point) : MediumStack()) {}
+
+  MediumStack at(vec3 near) const {
+    MediumStack media = media_;
+    if (scene_.has_media()) move_between(scene_, point_, near, media);
+    return media;
+  }
+
+private:
+  const RenderScene& scene_;
+  vec3 point_;
+  MediumStack media_;
+};
+
 } // namespace candela

@@ -183,7 +183,11 @@ void PathTracer::scatter(std::size_t begin, std::size_t count, int depth, StopPo
 void PathTracer::make_vertices(std::size_t begin, std::size_t count, int depth) {
   Lanes<const Ray*> rays;
   for (std::size_t i = 0; i < count; ++i) rays[i] = &arrived_[begin + i]->ray;
-  vertices_.set(scene_, {rays.data(), count}, std::span(hits_).subspan(begin, count));
+  Lanes<const MediumStack*> media;
+  const std::size_t media_count = scene_.has_priorities() ? count : 0;
+  for (std::size_t i = 0; i < media_count; ++i) media[i] = &media_of(*arrived_[begin + i]);
+  vertices_.set(scene_, {rays.data(), count}, std::span(hits_).subspan(begin, count),
+                {media.data(), media_count});
   scattering_.clear();
   scattering_flags_ = BsdfFlags::none;
   shading_points_.count = 0;

@@ -15,6 +15,14 @@ Spectrum transmittance(const RenderScene& scene, const MediumStack& media, const
   return medium ? transmittance(ray, distance, scene.medium(medium), sampler) : Spectrum(1);
 }
 
+/// Whether the surface that the ray, which is in `media`, meets is not there.
+bool is_hidden(const RenderScene& scene, const SurfaceMaterial& material, const MediumStack& media,
+               const Ray& ray, const Hit& hit) {
+  if (material.media.inside.priority <= 0) return false;
+  const SurfaceInteraction s = scene.geometry().surface(ray, hit);
+  return media.hides(material.media, glm::dot(s.geometric_normal, ray.direction) < 0);
+}
+
 } // namespace
 
 bool detail::intersect_through_media(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met,
@@ -23,15 +31,17 @@ bool detail::intersect_through_media(const RenderScene& scene, Ray& ray, const S
     if (passage != nullptr)
       passage->transmittance *= transmittance(scene, passage->media, ray, distance, sampler);
   };
-  if (!scene.has_transparency()) {
+  if (!scene.has_passable_surfaces()) {
     advance(met ? hit.t : kInfinity);
     return met;
   }
   for (std::uint32_t crossing = 0; met; ++crossing) {
     const SurfaceMaterial& material = scene.material(scene.geometry().material_of(hit));
     advance(hit.t);
-    const float opacity = opacity_at(material, [&] { return scene.geometry().uv(ray, hit); });
-    if (opacity >= 1 || sampler.get_1d(Dimension::opacity, crossing) < opacity) return true;
+    if (passage == nullptr || !is_hidden(scene, material, passage->media, ray, hit)) {
+      const float opacity = opacity_at(material, [&] { return scene.geometry().uv(ray, hit); });
+      if (opacity >= 1 || sampler.get_1d(Dimension::opacity, crossing) < opacity) return true;
+    }
     if (crossing + 1 == kMaxCrossings) return false;
     SurfaceInteraction s = scene.geometry().surface(ray, hit);
     if (passage != nullptr)
@@ -53,7 +63,7 @@ Spectrum transmittance(const RenderScene& scene, const Ray& towards, const Shado
                          : transmittance(scene, where, ray, t * glm::length(ray.direction), sampler);
   };
   const float whole_way = target.infinite ? kInfinity : 1;
-  if (!scene.has_transparency()) {
+  if (!scene.has_passable_surfaces()) {
     ++counts.shadow;
     if (accel.occluded(towards)) return Spectrum(0);
     return media == nullptr ? Spectrum(1) : passes(*media, towards, whole_way);
@@ -66,8 +76,10 @@ Spectrum transmittance(const RenderScene& scene, const Ray& towards, const Shado
     auto hit = accel.intersect(ray);
     if (!hit) return through * passes(where, ray, whole_way);
     const SurfaceMaterial& material = scene.material(scene.geometry().material_of(*hit));
-    through *= 1 - opacity_at(material, [&] { return scene.geometry().uv(ray, *hit); });
-    if (is_black(through)) return Spectrum(0);
+    if (media == nullptr || !is_hidden(scene, material, where, ray, *hit)) {
+      through *= 1 - opacity_at(material, [&] { return scene.geometry().uv(ray, *hit); });
+      if (is_black(through)) return Spectrum(0);
+    }
     SurfaceInteraction s = scene.geometry().surface(ray, *hit);
     if (media != nullptr) {
       through *= passes(where, ray, hit->t);
@@ -77,6 +89,23 @@ Spectrum transmittance(const RenderScene& scene, const Ray& towards, const Shado
     if (!target.infinite) ray.direction = target.point - ray.origin;
   }
   return Spectrum(0);
+}
+
+bool detail::is_occluded_by_unhidden(const RenderScene& scene, Ray ray, MediumStack media,
+                                     RayCounts& counts) {
+  for (std::uint32_t i = 0; i < kMaxCrossings; ++i) {
+    ++counts.shadow;
+    const auto hit = scene.geometry().accel().intersect(ray);
+    if (!hit) return false;
+    const SurfaceMaterial& material = scene.material(scene.geometry().material_of(*hit));
+    if (!is_hidden(scene, material, media, ray, *hit)) return true;
+    const SurfaceInteraction s = scene.geometry().surface(ray, *hit);
+    media.cross(material.media, glm::dot(s.geometric_normal, ray.direction) < 0);
+    ray.origin = offset_ray_origin(s.position, s.position_error, s.geometric_normal, ray.direction);
+    ray.t_max -= hit->t;
+    if (!(ray.t_max > 0)) return false;
+  }
+  return true;
 }
 
 } // namespace candela

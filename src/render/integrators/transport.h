@@ -20,7 +20,7 @@ struct MediaPassage {
 
 namespace detail {
 
-/// intersect_through_opacity() where anything is transparent or there are media.
+/// intersect_through_opacity() where anything may be passed or there are media.
 bool intersect_through_media(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met, Hit& hit,
                              RayCounts& counts, MediaPassage* passage);
 
@@ -28,8 +28,9 @@ bool intersect_through_media(const RenderScene& scene, Ray& ray, const Sampler& 
 
 /// Given the closest hit of a ray of unit direction (or not `met`): whether the ray ends at a surface. A
 /// surface lets it through with the probability 1 - opacity; each crossing has a random number of its own.
-/// The ray then starts behind the last surface that it passed. `passage`, which is null in scenes without
-/// media, is brought to the surface, or to infinity.
+/// Surfaces that `passage` hides (MediumStack) are not there. The ray then starts behind the last surface
+/// that it passed. `passage`, which is null in scenes without media, is brought to the surface, or to
+/// infinity.
 inline bool intersect_through_opacity(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met,
                                       Hit& hit, RayCounts& counts, MediaPassage* passage = nullptr) {
   if (!scene.has_transparency() && passage == nullptr) return met;
@@ -52,6 +53,28 @@ struct ShadowTarget {
 /// transparent surfaces and the media there let pass. `media` of its origin are null in scenes without any.
 Spectrum transmittance(const RenderScene& scene, const Ray& ray, const ShadowTarget& target,
                        const Sampler& sampler, RayCounts& counts, const MediumStack* media = nullptr);
+
+namespace detail {
+
+bool is_occluded_by_unhidden(const RenderScene& scene, Ray ray, MediumStack media, RayCounts& counts);
+
+} // namespace detail
+
+/// Whether a ray of unit direction that starts in `media` meets any surface that those do not hide.
+inline bool is_occluded(const RenderScene& scene, const Ray& ray, const MediumStack& media,
+                        RayCounts& counts) {
+  if (scene.has_priorities()) return detail::is_occluded_by_unhidden(scene, ray, media, counts);
+  ++counts.shadow;
+  return scene.geometry().accel().occluded(ray);
+}
+
+/// Gives the BSDF of a surface, which `media` lie on either side of, what it has outside: where its inside
+/// has a priority.
+inline void set_outside(const RenderScene& scene, const SurfaceMaterial& material, const MediumStack& media,
+                        bool from_outside, Bsdf& bsdf) {
+  if (material.media.inside.priority > 0)
+    set_outside_ior(bsdf, scene.ior(media.outside_of(material.media, from_outside)));
+}
 
 /// Weight of the strategy with density `mine` (> 0) against the other's, numbers of samples included (Veach
 /// 1997, section 9.2).

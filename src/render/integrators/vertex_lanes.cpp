@@ -43,7 +43,8 @@ struct TriangleLanes {
 
 } // namespace
 
-void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits) {
+void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits,
+                      std::span<const MediumStack* const> media) {
   const Geometry& geometry = scene.geometry();
   const TriangleSet& world = geometry.world();
   TriangleLanes triangles;
@@ -77,9 +78,14 @@ void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays
     geometric_normal.set(i, s.geometric_normal);
     normal.set(i, s.shading_normal);
     if (material[i]->textured != nullptr)
-      textured[i] = evaluate_bsdf(*material[i], geometry.uv(*rays[i], hits[i]));
+      varying[i] = evaluate_bsdf(*material[i], geometry.uv(*rays[i], hits[i]));
   }
   set_frames(wo, *this);
+  for (std::size_t i = 0; i < media.size(); ++i) {
+    if (material[i]->media.inside.priority <= 0) continue;
+    if (material[i]->textured == nullptr) varying[i] = material[i]->bsdf;
+    set_outside(scene, *material[i], *media[i], side[i] > 0, varying[i]);
+  }
   for (std::size_t i = 0; i < count; ++i) {
     LightSamplingContext& context = light_context[i];
     context.position = position[i];
@@ -131,7 +137,7 @@ void VertexLanes::set_one(const Vertex& vertex, const Bsdf& bsdf) {
   side[0] = vertex.side;
   light_context[0] = vertex.light_context;
   material[0] = vertex.material;
-  textured[0] = bsdf;
+  varying[0] = bsdf;
 }
 
 } // namespace candela

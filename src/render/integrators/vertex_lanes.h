@@ -19,16 +19,15 @@ struct VertexLanes {
   Lanes<float> side;  ///< cosine of wo with the geometric normal: > 0 outside
   Lanes<LightSamplingContext> light_context;
   Lanes<const SurfaceMaterial*> material;
-  Lanes<Bsdf> textured; ///< where the material has a texture
+  Lanes<Bsdf> varying; ///< where the BSDF depends on the hit (SurfaceMaterial::varies)
 
-  /// Lane i is where rays[i] met hits[i].
-  void set(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits);
+  /// Lane i is where rays[i] met hits[i]. media[i] are those of the ray; none in scenes without priorities.
+  void set(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits,
+           std::span<const MediumStack* const> media = {});
   /// Lane 0 is `vertex`, with this BSDF, and there is no other.
   void set_one(const Vertex& vertex, const Bsdf& bsdf);
 
-  const Bsdf& bsdf(std::size_t i) const {
-    return material[i]->textured != nullptr ? textured[i] : material[i]->bsdf;
-  }
+  const Bsdf& bsdf(std::size_t i) const { return material[i]->varies ? varying[i] : material[i]->bsdf; }
   /// As folds_directions() has it.
   bool folds(std::size_t i) const { return folds_directions(bsdf(i), normal[i], geometric_normal[i]); }
   /// f |cos| and the density of wi (local, unit) under `how`, without delta lobes, what is folded onto it

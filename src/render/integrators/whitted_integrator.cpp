@@ -64,6 +64,7 @@ private:
       if (depth == last_depth_ || !vertex.scatters()) return;
       Bsdf bsdf = material.textured != nullptr ? evaluate_bsdf(material, scene_.geometry().uv(path.ray, hit))
                                                : material.bsdf;
+      set_outside(scene_, material, path.media, outside, bsdf);
       if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1) {
         Spectrum light =
             direct_light_.estimate(scene_, vertex, bsdf, sampler_, settings_, counts_, stop_, &path.media);

@@ -28,6 +28,7 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
   scene->materials_ = SceneMaterials::of(document, previous != nullptr ? previous->materials_ : nullptr);
   scene->surfaces_ = scene->materials_->data();
   scene->has_transparency_ = scene->materials_->has_transparency();
+  scene->has_priorities_ = scene->materials_->has_priorities();
   scene->has_media_ = !scene->materials_->media().empty();
   scene->lights_ = SceneLights::of(document, scene->geometry_, scene->materials_,
                                    previous != nullptr ? previous->lights_ : nullptr, progress);
@@ -53,21 +54,32 @@ void SceneMaterials::add_materials(const Document& document) {
 }
 
 void SceneMaterials::add_media(const std::vector<const Material*>& materials) {
-  auto absorbs = [](const Material* m) {
-    const auto absorption = inside_absorption(m->model);
-    return absorption && !is_black(*absorption);
-  };
-  if (std::ranges::none_of(materials, absorbs)) return;
-  std::map<std::array<float, 3>, std::uint16_t> known;
+  std::vector<std::optional<Interior>> interiors;
+  bool any = false;
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    const std::optional<vec3> a = inside_absorption(materials[i]->model);
-    if (!a) continue;
+    std::optional<Interior>& inside = interiors.emplace_back(interior(materials[i]->model));
+    if (!inside) continue;
+    if (materials_[i].emissive) inside->priority = 0; // light sampling counts on its surface's being there
+    has_priorities_ |= inside->priority > 0;
+    any |= inside->priority > 0 || !is_black(inside->absorption);
+  }
+  if (!any) return;
+  std::map<std::array<float, 4>, std::uint16_t> known;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (!interiors[i]) continue;
+    const vec3 a = interiors[i]->absorption;
+    const float ior = has_priorities_ ? interiors[i]->ior : 1; // else nobody asks
     const auto [entry, is_new] =
-        known.try_emplace({a->x, a->y, a->z}, static_cast<std::uint16_t>(media_.size()));
-    if (is_new) media_.emplace_back(AbsorbingMedium{*a});
+        known.try_emplace({a.x, a.y, a.z, ior}, static_cast<std::uint16_t>(media_.size()));
+    if (is_new) {
+      media_.emplace_back(AbsorbingMedium{a});
+      media_iors_.push_back(ior);
+    }
     if (media_.size() >= MediumId::kNone)
       throw Error(ExitCode::limit, "materials: there are more than 65534 different absorptions: use fewer");
-    materials_[i].media.inside.index = entry->second;
+    const auto priority = static_cast<std::int16_t>(interiors[i]->priority);
+    materials_[i].media.inside = {entry->second, priority};
+    materials_[i].varies |= priority > 0;
   }
 }
 

@@ -25,9 +25,16 @@ public:
   const SurfaceMaterial& material(std::uint32_t index) const { return surfaces_[index]; }
   /// Whether any surface lets light straight through, so that rays must look.
   bool has_transparency() const { return has_transparency_; }
+  /// Whether any body has a priority: surfaces inside of higher ones are not there, and what a surface does
+  /// depends on what lies outside of it.
+  bool has_priorities() const { return has_priorities_; }
+  /// Whether rays may go on behind a surface that they meet.
+  bool has_passable_surfaces() const { return has_transparency_ || has_priorities_; }
   /// Whether any body is filled with something, so that rays must know where they are.
   bool has_media() const { return has_media_; }
   const Medium& medium(MediumId id) const { return materials_->media()[id.index]; }
+  /// Index of refraction over vacuum; 1 of no medium.
+  float ior(MediumId id) const { return id ? materials_->media_iors()[id.index] : 1; }
 
   const std::vector<Light>& lights() const { return lights_->lights(); }
   /// The light that a primitive is (part of), or kNoLight.
@@ -52,7 +59,7 @@ private:
   std::shared_ptr<const SceneLights> lights_;
   // Of *materials_, where every ray reads them.
   const SurfaceMaterial* surfaces_ = nullptr;
-  bool has_transparency_ = false, has_media_ = false;
+  bool has_transparency_ = false, has_priorities_ = false, has_media_ = false;
 };
 
 } // namespace candela

@@ -29,6 +29,9 @@ public:
   const SurfaceMaterial* data() const { return begin() == end() ? nullptr : &*begin(); }
   bool has_transparency() const { return has_transparency_; }
   const std::vector<Medium>& media() const { return media_; }
+  /// Parallel to media(): their index of refraction over vacuum.
+  const std::vector<float>& media_iors() const { return media_iors_; }
+  bool has_priorities() const { return has_priorities_; }
   std::size_t memory_bytes() const;
 
 private:
@@ -41,8 +44,9 @@ private:
   OverrideSettings override_;
 
   SurfaceMaterials materials_;
-  bool has_transparency_ = false;
-  std::vector<Medium> media_; ///< empty where nothing absorbs
+  bool has_transparency_ = false, has_priorities_ = false;
+  std::vector<Medium> media_; ///< empty where nothing absorbs or has a priority
+  std::vector<float> media_iors_;
 };
 
 /// A document's lights, those of surfaces that emit among them, and the choices of one.

@@ -58,6 +58,7 @@ void SurfaceMaterials::add(const Material& material,
   if (!lookups.empty()) {
     models_.push_back({numbered.model, std::move(lookups)});
     out.textured = &models_.back();
+    out.varies = true;
   }
   out.opacity = material.opacity.value;
   out.emission = material.emission.value;

@@ -35,16 +35,17 @@ struct TexturedModel {
 };
 
 struct SurfaceMaterial {
-  Bsdf bsdf;                                           ///< where `textured` is null
-  const TexturedModel* textured = nullptr;             ///< evaluate_bsdf() knows the BSDF then
+  Bsdf bsdf;                               ///< where `textured` is null
+  const TexturedModel* textured = nullptr; ///< evaluate_bsdf() knows the BSDF then
+  bool varies = false; ///< whether the BSDF depends on the hit: is textured, or on what lies outside
   const TexturedParameter* emission_texture = nullptr; ///< emission_at() knows it then
   const TexturedParameter* opacity_texture = nullptr;  ///< opacity_at(), likewise
   Spectrum emission{0};                                ///< W/(m^2 sr)
   float opacity = 1;
   bool emissive = false;
   bool two_sided_emission = false;
-  /// By RenderScene::medium(). Bodies that absorb the same have the same medium; where anything absorbs, a
-  /// clear dielectric has one, too, for it may lie inside of that.
+  /// By RenderScene::medium(). Bodies that absorb the same have the same medium; where anything absorbs or
+  /// has a priority, a clear dielectric has one, too, for it may lie inside of that.
   MediumInterface media;
 };
 
