@@ -13,15 +13,6 @@ namespace candela {
 
 namespace {
 
-/// A similarity keeps spheres round: all columns of one length and perpendicular, to float precision.
-bool is_similarity(const mat4& m) {
-  vec3 x(m[0]), y(m[1]), z(m[2]);
-  float a = length_squared(x), tolerance = 1e-5f * a;
-  return std::abs(length_squared(y) - a) <= tolerance && std::abs(length_squared(z) - a) <= tolerance &&
-         std::abs(glm::dot(x, y)) <= tolerance && std::abs(glm::dot(y, z)) <= tolerance &&
-         std::abs(glm::dot(z, x)) <= tolerance;
-}
-
 /// A latitude-longitude sphere, for the ellipsoids that the exact sphere cannot be.
 Mesh tessellated_sphere(float radius) {
   constexpr unsigned kRings = 96, kSegments = 192;
@@ -86,9 +77,9 @@ public:
       if (progress) progress->check();
       add(static_cast<std::uint32_t>(i));
     }
-    if (world_normals_) g_->world_.normals.resize(g_->world_.positions.size(), vec3(0));
-    if (world_uvs_) g_->world_.uvs.resize(g_->world_.positions.size(), vec2(0));
-    g_->emitter_count_ = g_->disc_emitter(g_->discs_.size());
+    TriangleSet& triangles = triangles_.set;
+    if (world_normals_) triangles.normals.resize(triangles.positions.size(), vec3(0));
+    if (world_uvs_) triangles.uvs.resize(triangles.positions.size(), vec2(0));
 
     if (progress) progress->expect(accel_work());
     std::vector<InstanceGeometry> placed;
@@ -97,15 +88,19 @@ public:
       mesh.vertices = object->set.positions, mesh.triangles = object->set.triangles;
       object->accel = Accel::build(mesh, BuildQuality::high, progress);
     }
-    for (auto& p : g_->placed_) {
-      const Geometry::Object& object = *g_->objects_[p.object];
-      p.first_emitter = g_->emitter_count_;
-      g_->emitter_count_ += object.set.triangles.size();
+    for (auto& p : instanced_.placed) {
+      const Geometry::Object& object = *instanced_.objects[p.object];
+      p.first_number = instanced_.triangle_count;
+      instanced_.triangle_count += object.set.triangles.size();
       placed.push_back({&object.accel, p.world_from_object});
     }
+    g_->surfaces_.number_primitives();
     AccelInput world;
-    world.vertices = g_->world_.positions, world.triangles = g_->world_.triangles;
-    world.spheres = g_->spheres_, world.discs = g_->discs_, world.instances = placed;
+    g_->surfaces_.for_each([&]<class Kind>(const Kind& kind, std::uint64_t) {
+      if constexpr (requires { kind.input(); })
+        static_cast<typename Kind::Primitives::Input&>(world) = kind.input();
+    });
+    world.instances = placed;
     g_->accel_ = Accel::build(world, g_->quality_, progress);
     bool endless = std::ranges::any_of(
         instances_, [](const Instance& i) { return std::holds_alternative<PlaneShape>(i.shape); });
@@ -115,8 +110,10 @@ public:
 
 private:
   std::uint64_t accel_work() const {
-    std::size_t primitives =
-        g_->world_.triangles.size() + g_->spheres_.size() + g_->discs_.size() + g_->placed_.size();
+    std::size_t primitives = instanced_.placed.size();
+    g_->surfaces_.for_each([&](const auto& kind, std::uint64_t) {
+      if constexpr (requires { kind.input(); }) primitives += kind.count();
+    });
     for (const auto& object : new_objects_) primitives += object->set.triangles.size();
     return Accel::build_work(primitives);
   }
@@ -165,29 +162,25 @@ private:
         place(mesh, world_from_mesh, index);
       else
         bake(*mesh, world_from_mesh, index);
-    } else if (const auto* sphere = std::get_if<SphereShape>(&instance.shape)) {
-      if (is_similarity(instance.world_from_object))
-        add_sphere(sphere->radius, index);
-      else
-        bake_sphere(sphere->radius, index);
-    } else if (std::holds_alternative<RectangleShape>(instance.shape)) {
-      add_rectangle(index);
-    } else {
-      const mat4& m = instance.world_from_object;
-      vec3 x(m[0]), y(m[1]);
-      float a = length_squared(x);
-      bool round = std::abs(length_squared(y) - a) <= 1e-5f * a && std::abs(glm::dot(x, y)) <= 1e-5f * a;
-      if (round)
-        add_disc(index);
-      else
-        bake(tessellated_disc(), m, index);
+      return;
     }
+    bool is_added = false;
+    g_->surfaces_.change_each([&](auto& kind) {
+      if constexpr (requires { kind.add(instance, index); }) is_added = is_added || kind.add(instance, index);
+    });
+    if (is_added) return;
+    if (const auto* sphere = std::get_if<SphereShape>(&instance.shape))
+      bake_sphere(sphere->radius, index);
+    else if (std::holds_alternative<RectangleShape>(instance.shape))
+      add_rectangle(index);
+    else
+      bake(tessellated_disc(), instance.world_from_object, index);
   }
 
   std::uint32_t begin_triangles(std::uint32_t index) {
-    auto first = static_cast<std::uint32_t>(g_->world_.triangles.size());
-    g_->first_triangle_of_.push_back(first);
-    g_->triangle_instances_.push_back(index);
+    auto first = static_cast<std::uint32_t>(triangles_.set.triangles.size());
+    triangles_.first_triangle_of.push_back(first);
+    triangles_.triangle_instances.push_back(index);
     return first;
   }
 
@@ -201,7 +194,7 @@ private:
     mat3 normal_to_world = glm::transpose(glm::inverse(mat3(m)));
     // A mirroring transform turns the winding around; turn it back so that outside stays outside.
     bool mirrored = glm::determinant(mat3(m)) < 0;
-    TriangleSet& world = g_->world_;
+    TriangleSet& world = triangles_.set;
     begin_triangles(index);
     auto base = static_cast<std::uint32_t>(world.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
@@ -232,10 +225,10 @@ private:
   }
 
   void bake_sphere(float radius, std::uint32_t index) {
-    const std::size_t first = g_->world_.triangles.size();
+    const std::size_t first = triangles_.set.triangles.size();
     bake(tessellated_sphere(radius), instances_[index].world_from_object, index);
-    g_->ellipsoids_.push_back(
-        {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(g_->world_.triangles.size())});
+    triangles_.ellipsoids.push_back(
+        {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(triangles_.set.triangles.size())});
   }
 
   /// The object that a mesh is.
@@ -252,8 +245,9 @@ private:
 
   void place(const std::shared_ptr<const Mesh>& mesh, const mat4& world_from_mesh, std::uint32_t index) {
     const Instance& instance = instances_[index];
-    auto [entry, is_new] = objects_.try_emplace(mesh.get(), static_cast<std::uint32_t>(g_->objects_.size()));
-    if (is_new) g_->objects_.push_back(object_of(mesh));
+    auto [entry, is_new] =
+        objects_.try_emplace(mesh.get(), static_cast<std::uint32_t>(instanced_.objects.size()));
+    if (is_new) instanced_.objects.push_back(object_of(mesh));
     Geometry::Placed p{};
     p.object = entry->second;
     p.world_from_object = world_from_mesh;
@@ -262,26 +256,7 @@ private:
     p.normal_to_world = glm::transpose(mat3(p.object_from_world));
     for (int m : instance.materials) p.slot_materials.push_back(static_cast<std::uint32_t>(m));
     p.instance = index;
-    g_->placed_.push_back(std::move(p));
-  }
-
-  void add_sphere(float radius, std::uint32_t index) {
-    const mat4& m = instances_[index].world_from_object;
-    g_->spheres_.push_back({vec3(m[3]), radius * glm::length(vec3(m[0]))});
-    g_->sphere_from_world_.push_back(glm::transpose(mat3(m)) / glm::length(vec3(m[0])));
-    g_->sphere_materials_.push_back(static_cast<std::uint32_t>(instances_[index].materials[0]));
-    g_->sphere_instances_.push_back(index);
-  }
-
-  void add_disc(std::uint32_t index) {
-    const mat4& m = instances_[index].world_from_object;
-    vec3 x(m[0]), y(m[1]);
-    vec3 normal = glm::normalize(glm::cross(x, y));
-    if (glm::dot(normal, vec3(m[2])) < 0) normal = -normal; // the image of +z, also of a mirroring transform
-    g_->discs_.push_back({vec3(m[3]), glm::length(x), normal});
-    g_->disc_axes_.push_back({x / length_squared(x), y / length_squared(y)});
-    g_->disc_materials_.push_back(static_cast<std::uint32_t>(instances_[index].materials[0]));
-    g_->disc_instances_.push_back(index);
+    instanced_.placed.push_back(std::move(p));
   }
 
   void add_rectangle(std::uint32_t index) {
@@ -289,7 +264,7 @@ private:
     vec3 x(m[0]), y(m[1]), center(m[3]);
     vec2 flip(1);
     if (glm::dot(glm::cross(x, y), vec3(m[2])) < 0) x = -x, flip.x = -1; // normal: the image of +z
-    TriangleSet& world = g_->world_;
+    TriangleSet& world = triangles_.set;
     std::uint32_t first = begin_triangles(index);
     auto base = static_cast<std::uint32_t>(world.positions.size());
     world_uvs_ = true;
@@ -302,11 +277,13 @@ private:
     world.triangles.emplace_back(base, base + 2, base + 3);
     auto material_index = static_cast<std::uint32_t>(instances_[index].materials[0]);
     world.materials.insert(world.materials.end(), 2, material_index);
-    g_->rectangles_.push_back({center - x - y, 2.0f * x, 2.0f * y, first});
+    triangles_.rectangles.push_back({center - x - y, 2.0f * x, 2.0f * y, first});
   }
 
   const std::vector<Instance>& instances_;
   std::shared_ptr<Geometry> g_ = std::make_shared<Geometry>();
+  TriangleSurfaces& triangles_ = g_->surfaces_.of<TriangleSurfaces>();
+  InstanceSurfaces& instanced_ = g_->surfaces_.of<InstanceSurfaces>();
   std::vector<InstanceMesh> meshes_; ///< parallel to instances_
   std::map<std::tuple<std::size_t, bool, float>, std::shared_ptr<const Mesh>> shape_meshes_;
   std::map<const Mesh*, std::size_t> uses_;

@@ -119,65 +119,18 @@ void SceneLights::add_emitters(const Progress* progress) {
   bool any = false;
   for (const SurfaceMaterial& m : materials_) any |= m.emissive;
   if (!any) return;
-  const Geometry& g = *geometry_;
-  light_of_emitter_.reset(g.emitter_count());
-  auto add_triangle = [&](std::uint64_t emitter, vec3 p0, vec3 p1, vec3 p2, vec3 outside,
-                          const SurfaceMaterial& m) {
-    vec3 c = glm::cross(p1 - p0, p2 - p0);
-    float double_area = glm::length(c);
-    if (!(double_area > 0)) return; // no ray meets it either
-    vec3 n = c / double_area;
-    if (glm::dot(n, outside) < 0) n = -n;
-    add_emitter(emitter, m,
-                TriangleLight{p0, p1 - p0, p2 - p0, n, 0.5f * double_area, expected_radiance(m),
-                              m.two_sided_emission});
-  };
-
-  for (const RectangleGeometry& r : g.rectangles()) {
-    const SurfaceMaterial& m = materials_[g.world().materials[r.first_triangle]];
-    // Sheared ones are left to their triangles below.
-    float lengths = glm::length(r.edge_x) * glm::length(r.edge_y);
-    if (!m.emissive || std::abs(glm::dot(r.edge_x, r.edge_y)) > 1e-6f * lengths) continue;
-    if (!(length_squared(glm::cross(r.edge_x, r.edge_y)) > 0)) continue;
-    add_emitter(r.first_triangle, m,
-                RectangleLight(r.corner, r.edge_x, r.edge_y, expected_radiance(m), m.two_sided_emission));
-    light_of_emitter_.set(r.first_triangle + 1, light_of_emitter_[r.first_triangle]);
-  }
-  const TriangleSet& world = g.world();
-  for (std::uint32_t i = 0; i < world.triangles.size(); ++i) {
-    check_now_and_then(progress, i);
-    const SurfaceMaterial& m = materials_[world.materials[i]];
-    if (!m.emissive || light_of_emitter_[i] != kNoLight) continue;
-    uvec3 t = world.triangles[i];
-    vec3 p0 = world.positions[t.x], p1 = world.positions[t.y], p2 = world.positions[t.z];
-    add_triangle(i, p0, p1, p2, glm::cross(p1 - p0, p2 - p0), m);
-  }
-  for (std::size_t i = 0; i < g.spheres().size(); ++i)
-    if (const SurfaceMaterial& m = materials_[g.sphere_materials()[i]]; m.emissive)
-      add_emitter(g.sphere_emitter(i), m,
-                  SphereLight{g.spheres()[i].center, g.spheres()[i].radius, expected_radiance(m),
-                              m.two_sided_emission});
-  for (std::size_t i = 0; i < g.discs().size(); ++i)
-    if (const SurfaceMaterial& m = materials_[g.disc_materials()[i]]; m.emissive)
-      add_emitter(g.disc_emitter(i), m,
-                  DiscLight{g.discs()[i].center, g.discs()[i].normal, g.discs()[i].radius,
-                            expected_radiance(m), m.two_sided_emission});
-  for (const Geometry::Placed& p : g.placed()) {
-    auto shines = [&](std::uint32_t material) { return materials_[material].emissive; };
-    if (std::ranges::none_of(p.slot_materials, shines)) continue;
-    const TriangleSet& set = g.objects()[p.object]->set;
-    for (std::uint32_t i = 0; i < set.triangles.size(); ++i) {
-      check_now_and_then(progress, i);
-      const SurfaceMaterial& m = materials_[p.slot_materials[set.materials[i]]];
-      if (!m.emissive) continue;
-      uvec3 t = set.triangles[i];
-      vec3 p0 = set.positions[t.x], p1 = set.positions[t.y], p2 = set.positions[t.z];
-      vec3 outside = p.normal_to_world * glm::cross(p1 - p0, p2 - p0);
-      const mat4& w = p.world_from_object;
-      add_triangle(p.first_emitter + i, transform_point(w, p0), transform_point(w, p1),
-                   transform_point(w, p2), outside, m);
-    }
-  }
+  light_of_emitter_.reset(geometry_->emitter_count());
+  geometry_->surfaces().for_each([&](const auto& kind, std::uint64_t first) {
+    auto emits = [&](std::uint32_t material) { return materials_[material].emissive; };
+    auto add = [&](std::uint64_t number, std::uint32_t count, std::uint32_t material, auto make) {
+      const SurfaceMaterial& m = materials_[material];
+      const std::uint64_t emitter = first + number;
+      add_emitter(emitter, m, make(expected_radiance(m), m.two_sided_emission));
+      for (std::uint32_t i = 1; i < count; ++i)
+        light_of_emitter_.set(emitter + i, light_of_emitter_[emitter]);
+    };
+    kind.for_each_light(emits, add, progress);
+  });
 }
 
 const EnvironmentMap* SceneLights::environment_map(const EnvironmentLightModel& light,

@@ -13,6 +13,14 @@ inline vec2 sphere_uv(vec3 d) {
   return {turn < 0 ? turn + 1 : turn, 1 - std::atan2(glm::length(vec2(d)), d.z) * kInvPi};
 }
 
+/// Change of sphere_uv(d) as d moves along `step`.
+inline vec2 sphere_uv_derivative(vec3 d, vec3 step) {
+  const float rho2 = d.x * d.x + d.y * d.y, rho = std::sqrt(rho2);
+  const float step_rho = (d.x * step.x + d.y * step.y) / rho;
+  return {(d.x * step.y - d.y * step.x) / rho2 * (0.5f * kInvPi),
+          (rho * step.z - d.z * step_rho) / (rho2 + d.z * d.z) * kInvPi};
+}
+
 /// The unit direction that has them.
 inline vec3 sphere_direction(vec2 uv) {
   const float phi = 2 * kPi * uv.x, theta = kPi * (1 - uv.y), sine = std::sin(theta);
