@@ -59,7 +59,7 @@ public:
       }
       specular = ks * highlight(diffuse);
       conserve(diffuse, specular, ks);
-      out.model = PhongMaterial{diffuse, specular, clamped("exponent", "Ns", vec3(said_.ns.value_or(1))).x};
+      out.model = PhongMaterial{diffuse, specular, exponent()};
     }
     out.opacity = clamped("opacity", "d", vec3(said_.d.value_or(1))).x;
     if (said_.tf && *said_.tf != vec3(1)) warnings_.add(said_.where, "Tf of an opaque material is ignored");
@@ -75,6 +75,13 @@ private:
     if (!map || !is_black(value)) return value;
     warnings_.add(said_.where, fmt::format("{0} is black beside map_{0}: it is taken for 1", key));
     return vec3(1);
+  }
+
+  float exponent() {
+    const float value = clamped("exponent", "Ns", vec3(said_.ns.value_or(1))).x;
+    if (!said_.map_ns || value > 0) return value;
+    warnings_.add(said_.where, "Ns is 0 beside map_Ns: it is taken for 1");
+    return 1;
   }
 
   /// A map may make room for the diffuse part here and there, so that it is reduced where it is looked up.
@@ -178,6 +185,9 @@ void read_mtl(const FoundFile& file, const PathPolicy& policy, MtlDialect dialec
     map("specular", "map_Ks", said.map_ks);
     map("emission", "map_Ke", said.map_ke);
     if (!is_glass) map("opacity", "map_d", said.map_d);
+    if (said.map_ns && !find_parameter(out.material, "exponent"))
+      warnings.add(said.map_ns->where, "'map_Ns' is ignored: the material has no highlight with an exponent");
+    map("exponent", "map_Ns", said.map_ns);
     library.emplace(said.name, std::move(out));
   }
 }

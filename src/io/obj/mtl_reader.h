@@ -50,11 +50,11 @@ inline constexpr float kPlasticSpecular = 0.08f;
 /// the exponent Ns, whose reflectance is kPlasticSpecular * Ks where Kd (or map_Kd) has a colour, and Ks
 /// where it has none (a metal). For cs123 all but mirror and dielectric are phong(Kd, Ks, Ns) where Ks is not
 /// black. d (or 1 - Tr) is the opacity. Where diffuse and specular part exceed 1 together, the diffuse one is
-/// reduced: a surface cannot reflect more than it gets. Ke is emission. map_Kd, map_Ks, map_Ke and map_d
-/// multiply Kd, Ks, Ke and d, each of which is 1 where it is missing beside its map, or black. Values out of
-/// range are clamped. All such corrections, how a coloured Tf was read, textures that are not there and all
-/// statements that are ignored are counted warnings. Throws for a file that cannot be read, and for textures
-/// outside the root.
+/// reduced: a surface cannot reflect more than it gets. Ke is emission. map_Kd, map_Ks, map_Ke, map_d and
+/// map_Ns multiply Kd, Ks, Ke, d and Ns, each of which is 1 where it is missing beside its map, or black.
+/// Values out of range are clamped. All such corrections, how a coloured Tf was read, textures that are not
+/// there and all statements that are ignored are counted warnings. Throws for a file that cannot be read, and
+/// for textures outside the root.
 void read_mtl(const FoundFile& file, const PathPolicy& policy, MtlDialect dialect, WarningList& warnings,
               MtlLibrary& library);
 
