@@ -1,6 +1,7 @@
 #include "render/world/render_scene.h"
 
 #include "core/error.h"
+#include "sampling/warp.h"
 
 #include <array>
 #include <map>
@@ -73,24 +74,17 @@ void SceneMaterials::add_media(const std::vector<const Material*>& materials) {
 
 namespace {
 
-/// What light sampling expects of a surface. A path that meets a partly transparent light sees it with the
-/// probability of its opacity; sampling the light must expect the same. Where a texture says more, its mean
-/// over [0, 1]^2: lights are chosen by it. Never black, for then what the mean misses would not be sampled.
-vec3 expected_radiance(const SurfaceMaterial& m) {
-  if (!has_textured_radiance(m)) return m.emission * m.opacity;
-  constexpr int kSide = 16;
-  constexpr float kLeastShare = 1e-3f;
-  vec3 sum(0), brightest(0);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) {
-      auto uv = [&] { return (vec2(x, y) + 0.5f) / static_cast<float>(kSide); };
-      const vec3 emission = emission_at(m, uv);
-      sum += emission * opacity_at(m, uv);
-      brightest = glm::max(brightest, emission);
-    }
-  const vec3 mean = sum / static_cast<float>(kSide * kSide);
-  return glm::max(mean, kLeastShare * (is_black(brightest) ? vec3(1) : brightest));
+/// What light sampling expects of a surface: of one with textures, what `mean` says. A path that meets a
+/// partly transparent light sees it with the probability of its opacity; sampling the light must expect the
+/// same.
+template <class Mean>
+vec3 expected_radiance(const SurfaceMaterial& m, Mean mean) {
+  return has_textured_radiance(m) ? mean() : m.emission * m.opacity;
 }
+
+/// Texture coordinates of a sphere, of a disc, by equal areas of the unit square.
+vec2 sphere_coordinates(vec2 q) { return {q.x, 1 - std::acos(1 - 2 * q.y) * kInvPi}; }
+vec2 disc_coordinates(vec2 q) { return 0.5f * sample_uniform_disc(q) + 0.5f; }
 
 } // namespace
 
@@ -103,22 +97,33 @@ void SceneLights::add_emitter(std::uint64_t emitter, const SurfaceMaterial& mate
   emitter_textures_[index] = {emitter, &material};
 }
 
-void SceneLights::add_emitters(const Progress* progress) {
+void SceneLights::add_emitters(const SceneLights* previous, const Progress* progress) {
   bool any = false;
   for (const SurfaceMaterial& m : materials_) any |= m.emissive;
   if (!any) return;
   const Geometry& g = *geometry_;
   light_of_emitter_.reset(g.emitter_count());
   auto add_triangle = [&](std::uint64_t emitter, vec3 p0, vec3 p1, vec3 p2, vec3 outside,
-                          const SurfaceMaterial& m) {
+                          const SurfaceMaterial& m, Hit hit) {
     vec3 c = glm::cross(p1 - p0, p2 - p0);
     float double_area = glm::length(c);
     if (!(double_area > 0)) return; // no ray meets it either
     vec3 n = c / double_area;
     if (glm::dot(n, outside) < 0) n = -n;
+    auto mean = [&] {
+      return mean_radiance_of_triangle(m, [&](vec2 barycentric) {
+        hit.u = barycentric.x, hit.v = barycentric.y;
+        return g.uv({}, hit);
+      });
+    };
     add_emitter(emitter, m,
-                TriangleLight{p0, p1 - p0, p2 - p0, n, 0.5f * double_area, expected_radiance(m),
+                TriangleLight{p0, p1 - p0, p2 - p0, n, 0.5f * double_area, expected_radiance(m, mean),
                               m.two_sided_emission});
+  };
+  auto triangle_hit = [](std::uint32_t primitive, std::uint32_t instance) {
+    Hit hit;
+    hit.kind = PrimitiveKind::triangle, hit.primitive = primitive, hit.instance = instance;
+    return hit;
   };
 
   for (const RectangleGeometry& r : g.rectangles()) {
@@ -127,8 +132,12 @@ void SceneLights::add_emitters(const Progress* progress) {
     float lengths = glm::length(r.edge_x) * glm::length(r.edge_y);
     if (!m.emissive || std::abs(glm::dot(r.edge_x, r.edge_y)) > 1e-6f * lengths) continue;
     if (!(length_squared(glm::cross(r.edge_x, r.edge_y)) > 0)) continue;
+    const EmissionTable* table =
+        has_textured_radiance(m) ? &emission_table(m, r, previous, progress) : nullptr;
     add_emitter(r.first_triangle, m,
-                RectangleLight(r.corner, r.edge_x, r.edge_y, expected_radiance(m), m.two_sided_emission));
+                RectangleLight(r.corner, r.edge_x, r.edge_y,
+                               expected_radiance(m, [&] { return table->mean; }), m.two_sided_emission,
+                               table != nullptr ? table->grid.get() : nullptr));
     light_of_emitter_.set(r.first_triangle + 1, light_of_emitter_[r.first_triangle]);
   }
   const TriangleSet& world = g.world();
@@ -138,19 +147,22 @@ void SceneLights::add_emitters(const Progress* progress) {
     if (!m.emissive || light_of_emitter_[i] != kNoLight) continue;
     uvec3 t = world.triangles[i];
     vec3 p0 = world.positions[t.x], p1 = world.positions[t.y], p2 = world.positions[t.z];
-    add_triangle(i, p0, p1, p2, glm::cross(p1 - p0, p2 - p0), m);
+    add_triangle(i, p0, p1, p2, glm::cross(p1 - p0, p2 - p0), m, triangle_hit(i, kNoInstance));
   }
   for (std::size_t i = 0; i < g.spheres().size(); ++i)
     if (const SurfaceMaterial& m = materials_[g.sphere_materials()[i]]; m.emissive)
       add_emitter(g.sphere_emitter(i), m,
-                  SphereLight{g.spheres()[i].center, g.spheres()[i].radius, expected_radiance(m),
+                  SphereLight{g.spheres()[i].center, g.spheres()[i].radius,
+                              expected_radiance(m, [&] { return mean_radiance(m, sphere_coordinates); }),
                               m.two_sided_emission});
   for (std::size_t i = 0; i < g.discs().size(); ++i)
     if (const SurfaceMaterial& m = materials_[g.disc_materials()[i]]; m.emissive)
       add_emitter(g.disc_emitter(i), m,
                   DiscLight{g.discs()[i].center, g.discs()[i].normal, g.discs()[i].radius,
-                            expected_radiance(m), m.two_sided_emission});
-  for (const Geometry::Placed& p : g.placed()) {
+                            expected_radiance(m, [&] { return mean_radiance(m, disc_coordinates); }),
+                            m.two_sided_emission});
+  for (std::uint32_t instance = 0; instance < g.placed().size(); ++instance) {
+    const Geometry::Placed& p = g.placed()[instance];
     auto shines = [&](std::uint32_t material) { return materials_[material].emissive; };
     if (std::ranges::none_of(p.slot_materials, shines)) continue;
     const TriangleSet& set = g.objects()[p.object]->set;
@@ -163,9 +175,29 @@ void SceneLights::add_emitters(const Progress* progress) {
       vec3 outside = p.normal_to_world * glm::cross(p1 - p0, p2 - p0);
       const mat4& w = p.world_from_object;
       add_triangle(p.first_emitter + i, transform_point(w, p0), transform_point(w, p1),
-                   transform_point(w, p2), outside, m);
+                   transform_point(w, p2), outside, m, triangle_hit(i, instance));
     }
   }
+}
+
+const EmissionTable& SceneLights::emission_table(const SurfaceMaterial& material,
+                                                 const RectangleGeometry& rectangle,
+                                                 const SceneLights* previous, const Progress* progress) {
+  const TriangleSet& world = geometry_->world();
+  const bool mirrored = world.uvs[world.triangles[rectangle.first_triangle].x].x > 0.5f;
+  auto fits = [&](const RectangleEmission& known) {
+    return known.mirrored == mirrored && emits_alike(*known.material, material);
+  };
+  auto own = std::ranges::find_if(emission_tables_, fits);
+  if (own != emission_tables_.end()) return *own->table;
+  std::shared_ptr<const EmissionTable> table;
+  if (previous != nullptr) {
+    auto known = std::ranges::find_if(previous->emission_tables_, fits);
+    if (known != previous->emission_tables_.end()) table = known->table;
+  }
+  if (!table) table = std::make_shared<const EmissionTable>(tabulate_emission(material, mirrored, progress));
+  emission_tables_.push_back({&material, mirrored, table});
+  return *table;
 }
 
 const EnvironmentMap* SceneLights::environment_map(const EnvironmentLightModel& light,
