@@ -36,6 +36,7 @@ struct CheckerTexture {
     all.channel = TextureChannel::rgb;
     return texel_number(vec4(color(all, uv), 1), use.channel);
   }
+  vec2 cells() const { return vec2(squares); }
   std::size_t memory_bytes() const { return 0; }
 };
 

@@ -24,6 +24,7 @@ struct ImageTexture {
   /// Decoded before they are blended, for light adds linearly.
   vec3 color(const TextureUse& use, vec2 uv) const;
   float number(const TextureUse& use, vec2 uv) const;
+  vec2 cells() const { return {static_cast<float>(texels->width), static_cast<float>(texels->height)}; }
   std::size_t memory_bytes() const { return texels->bytes(); }
 };
 

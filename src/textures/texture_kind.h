@@ -3,8 +3,10 @@
 //
 //   kName            what files call it
 //   rows()           rows of its values (core/fields.h)
-//   color(use, uv)   linear Rec. 709, without the factor and offset of who uses it; `uv` is transformed
-//   already number(use, uv)  the same for a parameter that is one number memory_bytes()   of its data
+//   color(use, uv)   linear Rec. 709, without the factor and offset of who uses it; uv comes transformed
+//   number(use, uv)  the same for a parameter that is one number
+//   cells()          how many texels, or the like, lie along one unit of u and of v
+//   memory_bytes()   of its data
 
 #include "textures/texture_use.h"
 
@@ -19,6 +21,7 @@ concept TextureKind = std::equality_comparable<T> && requires(const T& t, const 
   { T::rows() } -> std::convertible_to<std::span<const Field<T>>>;
   { t.color(use, uv) } -> std::same_as<vec3>;
   { t.number(use, uv) } -> std::same_as<float>;
+  { t.cells() } -> std::same_as<vec2>;
   { t.memory_bytes() } -> std::same_as<std::size_t>;
 };
 

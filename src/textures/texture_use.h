@@ -22,13 +22,15 @@ struct UvTransform {
   float rotation = 0; ///< radians, counter-clockwise
   bool operator==(const UvTransform&) const = default;
 
-  vec2 apply(vec2 uv) const {
-    vec2 p = scale * uv;
+  vec2 apply(vec2 uv) const { return apply_to_step(uv) + offset; }
+  /// Of a difference of two places.
+  vec2 apply_to_step(vec2 step) const {
+    vec2 p = scale * step;
     if (rotation != 0) {
       const float c = std::cos(rotation), s = std::sin(rotation);
       p = {c * p.x - s * p.y, s * p.x + c * p.y};
     }
-    return p + offset;
+    return p;
   }
 };
 

@@ -26,8 +26,8 @@ public:
     if (key_.empty() || key_.front() == '#') return;
     where_ = {file_, number, static_cast<int>(key_.data() - text.data()) + 1};
     if (key_ == "newmtl") return begin(trimmed(rest));
-    constexpr std::string_view kKnown[] = {"Kd", "Ks", "Ke",    "Tf",     "Kt",     "Ns",     "Ni",
-                                           "d",  "Tr", "illum", "map_Kd", "map_Ks", "map_Ke", "map_d"};
+    constexpr std::string_view kKnown[] = {"Kd", "Ks",    "Ke",     "Tf",     "Kt",     "Ns",    "Ni",    "d",
+                                           "Tr", "illum", "map_Kd", "map_Ks", "map_Ke", "map_d", "map_Ns"};
     if (std::ranges::find(kKnown, key_) == std::end(kKnown)) {
       // A path tracer has no ambient term, so Ka is not needed.
       if (key_ != "Ka" && key_ != "map_Ka")
@@ -148,6 +148,7 @@ private:
     (key_ == "map_Kd"   ? m.map_kd
      : key_ == "map_Ks" ? m.map_ks
      : key_ == "map_Ke" ? m.map_ke
+     : key_ == "map_Ns" ? m.map_ns
                         : m.map_d) = {std::string(statement.file), statement.scale, statement.offset, where_};
   }
 

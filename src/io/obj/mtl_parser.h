@@ -24,7 +24,7 @@ struct MtlStatements {
     vec2 scale{1}, offset{0};
     Location where;
   };
-  std::optional<Map> map_kd, map_ks, map_ke, map_d;
+  std::optional<Map> map_kd, map_ks, map_ke, map_d, map_ns;
 };
 
 /// Reads all lines. Invalid statements are ignored and counted in the warnings with their locations.

@@ -59,7 +59,7 @@ public:
       }
       specular = ks * highlight(diffuse);
       conserve(diffuse, specular, ks);
-      out.model = PhongMaterial{diffuse, specular, clamped("exponent", "Ns", vec3(said_.ns.value_or(1))).x};
+      out.model = PhongMaterial{diffuse, specular, exponent()};
     }
     out.opacity = clamped("opacity", "d", vec3(said_.d.value_or(1))).x;
     if (said_.tf && *said_.tf != vec3(1)) warnings_.add(said_.where, "Tf of an opaque material is ignored");
@@ -76,6 +76,13 @@ private:
     warnings_.add(said_.where,
                   fmt::format("{0} is black although there is a map_{0}: it is taken for 1", key));
     return vec3(1);
+  }
+
+  float exponent() {
+    const float value = clamped("exponent", "Ns", vec3(said_.ns.value_or(1))).x;
+    if (!said_.map_ns || value > 0) return value;
+    warnings_.add(said_.where, "Ns is 0 beside map_Ns: it is taken for 1");
+    return 1;
   }
 
   /// With maps the sum varies over the surface, so the diffuse part is reduced at lookup.
@@ -179,6 +186,9 @@ void read_mtl(const FoundFile& file, const PathPolicy& policy, MtlDialect dialec
     map("specular", "map_Ks", said.map_ks);
     map("emission", "map_Ke", said.map_ke);
     if (!is_glass) map("opacity", "map_d", said.map_d);
+    if (said.map_ns && !find_parameter(out.material, "exponent"))
+      warnings.add(said.map_ns->where, "'map_Ns' is ignored: the material has no highlight with an exponent");
+    map("exponent", "map_Ns", said.map_ns);
     library.emplace(said.name, std::move(out));
   }
 }

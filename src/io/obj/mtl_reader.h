@@ -48,10 +48,10 @@ inline constexpr float kPlasticSpecular = 0.08f;
 /// the exponent Ns, whose reflectance is kPlasticSpecular * Ks where Kd (or map_Kd) has a colour, and Ks
 /// where it has none (a metal). For cs123 all but mirror and dielectric are phong(Kd, Ks, Ns) where Ks is not
 /// black. d (or 1 - Tr) is the opacity. Where diffuse and specular part exceed 1 together, the diffuse one is
-/// reduced to conserve energy. Ke is emission. map_Kd, map_Ks, map_Ke and map_d multiply Kd, Ks, Ke and d,
-/// each of which is 1 if it is missing or black although there is a map. Values out of range are clamped.
-/// Corrections, the interpretation of a coloured Tf, missing textures and ignored statements are counted
-/// warnings. Throws for a file that cannot be read, and for textures outside the root.
+/// reduced to conserve energy. Ke is emission. map_Kd, map_Ks, map_Ke, map_d and map_Ns multiply Kd, Ks, Ke,
+/// d and Ns, each of which is 1 if it is missing or black although there is a map. Values out of range are
+/// clamped. Corrections, the interpretation of a coloured Tf, missing textures and ignored statements are
+/// counted warnings. Throws for a file that cannot be read, and for textures outside the root.
 void read_mtl(const FoundFile& file, const PathPolicy& policy, MtlDialect dialect, WarningList& warnings,
               MtlLibrary& library);
 

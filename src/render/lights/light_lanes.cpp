@@ -13,6 +13,10 @@ public:
       samples.set(query.lane, std::nullopt);
       return;
     }
+    if (light.picture != nullptr) {
+      samples.set(query.lane, light.sample(*query.context, query.u));
+      return;
+    }
     vec3 d = light.corner - query.context->position;
     const std::size_t n = batch_.count++;
     queries_[n] = &query;

@@ -2,7 +2,9 @@
 // Discs that are no triangles: those that their transform keeps round.
 
 #include "lights/disc_light.h"
+#include "render/world/emission_table.h"
 #include "render/world/surface_kind.h"
+#include "sampling/warp.h"
 
 namespace candela {
 
@@ -73,8 +75,10 @@ struct DiscSurfaces {
   void for_each_light(Emits emits, Add add, const Progress*) const {
     for (std::size_t i = 0; i < discs.size(); ++i)
       if (emits(materials[i]))
-        add(i, 1, materials[i], [&](Spectrum radiance, bool two_sided) {
-          return DiscLight{discs[i].center, discs[i].normal, discs[i].radius, radiance, two_sided};
+        add(i, 1, materials[i], [&](const EmitterRadiance& radiance) {
+          const LightRadiance sent =
+              radiance.over([](vec2 q) { return 0.5f * sample_uniform_disc(q) + 0.5f; });
+          return DiscLight{discs[i].center, discs[i].normal, discs[i].radius, sent.mean, sent.two_sided};
         });
   }
 };

@@ -24,9 +24,4 @@ struct EmitterTexture {
   }
 };
 
-/// Whether the radiance depends on the point.
-inline bool has_textured_radiance(const SurfaceMaterial& material) {
-  return material.emissive && (material.emission_texture != nullptr || material.opacity_texture != nullptr);
-}
-
 } // namespace candela

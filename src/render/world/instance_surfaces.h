@@ -93,8 +93,15 @@ struct InstanceSurfaces {
         const uvec3 t = set.triangles[i];
         const vec3 p0 = set.positions[t.x], p1 = set.positions[t.y], p2 = set.positions[t.z];
         const mat4& w = p.world_from_object;
+        auto uv_at = [&](vec2 barycentric) {
+          Hit hit;
+          hit.kind = PrimitiveKind::triangle, hit.primitive = i;
+          hit.u = barycentric.x, hit.v = barycentric.y;
+          return set.uv(hit);
+        };
         add_triangle_light(p.first_number + i, material, transform_point(w, p0), transform_point(w, p1),
-                           transform_point(w, p2), p.normal_to_world * glm::cross(p1 - p0, p2 - p0), add);
+                           transform_point(w, p2), p.normal_to_world * glm::cross(p1 - p0, p2 - p0), uv_at,
+                           add);
       }
     }
   }

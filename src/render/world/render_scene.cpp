@@ -83,29 +83,6 @@ void SceneMaterials::add_media(const std::vector<const Material*>& materials) {
   }
 }
 
-namespace {
-
-/// What light sampling expects of a surface. A path that meets a partly transparent light sees it with the
-/// probability of its opacity; sampling the light must expect the same. Where a texture says more, its mean
-/// over [0, 1]^2: lights are chosen by it. Never black, for then what the mean misses would not be sampled.
-vec3 expected_radiance(const SurfaceMaterial& m) {
-  if (!has_textured_radiance(m)) return m.emission * m.opacity;
-  constexpr int kSide = 16;
-  constexpr float kLeastShare = 1e-3f;
-  vec3 sum(0), brightest(0);
-  for (int y = 0; y < kSide; ++y)
-    for (int x = 0; x < kSide; ++x) {
-      auto uv = [&] { return (vec2(x, y) + 0.5f) / static_cast<float>(kSide); };
-      const vec3 emission = emission_at(m, uv);
-      sum += emission * opacity_at(m, uv);
-      brightest = glm::max(brightest, emission);
-    }
-  const vec3 mean = sum / static_cast<float>(kSide * kSide);
-  return glm::max(mean, kLeastShare * (is_black(brightest) ? vec3(1) : brightest));
-}
-
-} // namespace
-
 void SceneLights::add_emitter(std::uint64_t emitter, const SurfaceMaterial& material, Light light) {
   const auto index = static_cast<std::uint32_t>(lights_.size());
   light_of_emitter_.set(emitter, index);
@@ -115,22 +92,42 @@ void SceneLights::add_emitter(std::uint64_t emitter, const SurfaceMaterial& mate
   emitter_textures_[index] = {emitter, &material};
 }
 
-void SceneLights::add_emitters(const Progress* progress) {
+void SceneLights::add_emitters(const SceneLights* previous, const Progress* progress) {
   bool any = false;
   for (const SurfaceMaterial& m : materials_) any |= m.emissive;
   if (!any) return;
   light_of_emitter_.reset(geometry_->emitter_count());
+  auto table = [&](const SurfaceMaterial& m, bool mirrored) -> const EmissionTable& {
+    return emission_table(m, mirrored, previous, progress);
+  };
   geometry_->surfaces().for_each([&](const auto& kind, std::uint64_t first) {
     auto emits = [&](std::uint32_t material) { return materials_[material].emissive; };
     auto add = [&](std::uint64_t number, std::uint32_t count, std::uint32_t material, auto make) {
       const SurfaceMaterial& m = materials_[material];
       const std::uint64_t emitter = first + number;
-      add_emitter(emitter, m, make(expected_radiance(m), m.two_sided_emission));
+      add_emitter(emitter, m, make(EmitterRadiance(m, table)));
       for (std::uint32_t i = 1; i < count; ++i)
         light_of_emitter_.set(emitter + i, light_of_emitter_[emitter]);
     };
     kind.for_each_light(emits, add, progress);
   });
+}
+
+const EmissionTable& SceneLights::emission_table(const SurfaceMaterial& material, bool mirrored,
+                                                 const SceneLights* previous, const Progress* progress) {
+  auto fits = [&](const RectangleEmission& known) {
+    return known.mirrored == mirrored && emits_alike(*known.material, material);
+  };
+  auto own = std::ranges::find_if(emission_tables_, fits);
+  if (own != emission_tables_.end()) return *own->table;
+  std::shared_ptr<const EmissionTable> table;
+  if (previous != nullptr) {
+    auto known = std::ranges::find_if(previous->emission_tables_, fits);
+    if (known != previous->emission_tables_.end()) table = known->table;
+  }
+  if (!table) table = std::make_shared<const EmissionTable>(tabulate_emission(material, mirrored, progress));
+  emission_tables_.push_back({&material, mirrored, table});
+  return *table;
 }
 
 const EnvironmentMap* SceneLights::environment_map(const EnvironmentLightModel& light,

@@ -8,22 +8,20 @@ namespace candela {
 
 namespace {
 
-/// The textures themselves are compared by their addresses: the parts hold them.
 bool is_same(const TexturedParameter* a, const TexturedParameter* b) {
   if (a == nullptr || b == nullptr) return a == b;
   return a->texture == b->texture && a->use == b->use && a->factor == b->factor && a->offset == b->offset &&
          a->lowest == b->lowest && a->highest == b->highest;
 }
 
-/// Whether surfaces of either material are the same lights.
+} // namespace
+
 bool emits_alike(const SurfaceMaterial& a, const SurfaceMaterial& b) {
   if (!a.emissive && !b.emissive) return true;
   return a.emissive == b.emissive && a.emission == b.emission && a.opacity == b.opacity &&
          a.two_sided_emission == b.two_sided_emission && is_same(a.emission_texture, b.emission_texture) &&
          is_same(a.opacity_texture, b.opacity_texture);
 }
-
-} // namespace
 
 SceneMaterials::SceneMaterials(const Document& document)
     : source_(document.scene.materials), textures_(document.scene.textures),
@@ -57,7 +55,7 @@ SceneLights::SceneLights(const Document& document, std::shared_ptr<const Geometr
                          const Progress* progress)
     : geometry_(std::move(geometry)), kept_materials_(std::move(materials)), materials_(*kept_materials_),
       source_(document.scene.lights), light_choice_(document.settings.path.light_choice) {
-  add_emitters(progress);
+  add_emitters(previous, progress);
   add_lights(source_, previous, progress);
   add_selections(progress);
 }
@@ -89,6 +87,8 @@ void SceneLights::add_selections(const Progress* progress) {
 std::size_t SceneLights::memory_bytes() const {
   std::size_t bytes = lights_.size() * sizeof(Light) + light_of_emitter_.memory_bytes() +
                       all_lights_.memory_bytes() + delta_lights_.memory_bytes();
+  for (const RectangleEmission& shown : emission_tables_)
+    if (shown.table->grid) bytes += shown.table->grid->memory_bytes();
   for (const auto& map : environment_maps_) bytes += map->memory_bytes();
   return bytes;
 }

@@ -5,6 +5,7 @@
 #include "media/medium.h"
 #include "render/lights/emitter_lights.h"
 #include "render/lights/light_selection.h"
+#include "render/world/emission_table.h"
 #include "render/world/emitter_texture.h"
 #include "render/world/geometry.h"
 #include "render/world/surface_material.h"
@@ -49,10 +50,14 @@ private:
   std::vector<float> media_iors_;
 };
 
+/// Whether surfaces of either material are the same lights. Textures are compared by their addresses: the
+/// parts hold them.
+bool emits_alike(const SurfaceMaterial& a, const SurfaceMaterial& b);
+
 /// A document's lights, those of surfaces that emit among them, and the choices of one.
 class SceneLights {
 public:
-  /// Environment maps of `previous` (may be null) serve again.
+  /// Environment maps and tables of emission of `previous` (may be null) serve again.
   SceneLights(const Document& document, std::shared_ptr<const Geometry> geometry,
               std::shared_ptr<const SceneMaterials> materials, const SceneLights* previous,
               const Progress* progress);
@@ -79,7 +84,16 @@ public:
   std::size_t memory_bytes() const;
 
 private:
-  void add_emitters(const Progress* progress);
+  /// What a rectangle light of the material shows.
+  struct RectangleEmission {
+    const SurfaceMaterial* material;
+    bool mirrored;
+    std::shared_ptr<const EmissionTable> table;
+  };
+
+  void add_emitters(const SceneLights* previous, const Progress* progress);
+  const EmissionTable& emission_table(const SurfaceMaterial& material, bool mirrored,
+                                      const SceneLights* previous, const Progress* progress);
   void add_emitter(std::uint64_t emitter, const SurfaceMaterial& material, Light light);
   void add_lights(const std::vector<LightDesc>& lights, const SceneLights* previous,
                   const Progress* progress);
@@ -96,7 +110,8 @@ private:
 
   std::vector<Light> lights_;
   EmitterLights light_of_emitter_;
-  std::vector<EmitterTexture> emitter_textures_; ///< by light; empty where none is textured
+  std::vector<EmitterTexture> emitter_textures_;   ///< by light; empty where none is textured
+  std::vector<RectangleEmission> emission_tables_; ///< what lights_ point to
   std::vector<std::uint32_t> infinite_lights_;
   std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
   LightSelection all_lights_, delta_lights_;

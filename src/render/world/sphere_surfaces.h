@@ -2,6 +2,7 @@
 // Spheres that are no triangles: those that their transform keeps round.
 
 #include "lights/sphere_light.h"
+#include "render/world/emission_table.h"
 #include "render/world/sphere_uv.h"
 #include "render/world/surface_kind.h"
 #include "render/world/surface_tangents.h"
@@ -70,8 +71,9 @@ struct SphereSurfaces {
   void for_each_light(Emits emits, Add add, const Progress*) const {
     for (std::size_t i = 0; i < spheres.size(); ++i)
       if (emits(materials[i]))
-        add(i, 1, materials[i], [&](Spectrum radiance, bool two_sided) {
-          return SphereLight{spheres[i].center, spheres[i].radius, radiance, two_sided};
+        add(i, 1, materials[i], [&](const EmitterRadiance& radiance) {
+          const LightRadiance sent = radiance.over(sphere_uv_of_square);
+          return SphereLight{spheres[i].center, spheres[i].radius, sent.mean, sent.two_sided};
         });
   }
 

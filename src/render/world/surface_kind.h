@@ -21,7 +21,7 @@ namespace candela {
 /// - uv, tangents: as Geometry's.
 /// - hit_at: the hit of a ray from the point on the primitive of that number, with t = 0.
 /// - for_each_light(emits, add, progress): for each light that surfaces are of which emits(material), calls
-///   add(number, count, material, make): of `count` primitives from that number on, make(radiance, two_sided)
+///   add(number, count, material, make): of `count` primitives from that number on, make(an EmitterRadiance)
 ///   being a light of lights/.
 ///
 /// Optional, of kinds that shapes become directly:

@@ -66,6 +66,11 @@ float opacity_at(const SurfaceMaterial& material, Uv uv) {
   return material.opacity_texture == nullptr ? material.opacity : material.opacity_texture->number(uv());
 }
 
+/// Whether the radiance that it sends out differs over it.
+inline bool has_textured_radiance(const SurfaceMaterial& material) {
+  return material.emissive && (material.emission_texture != nullptr || material.opacity_texture != nullptr);
+}
+
 /// The materials of a scene, and the textures that they look at.
 class SurfaceMaterials {
 public:

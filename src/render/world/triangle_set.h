@@ -3,6 +3,7 @@
 
 #include "accel/accel.h"
 #include "lights/triangle_light.h"
+#include "render/world/emission_table.h"
 #include "render/world/surface_tangents.h"
 #include "render/world/triangle_point.h"
 
@@ -68,17 +69,19 @@ struct TriangleSet {
 };
 
 /// As SurfaceKind's for_each_light has it, of one triangle: nothing where it has no area, for no ray meets it
-/// either. `outside`: a vector to its outside.
-template <class Add>
+/// either. `outside`: a vector to its outside; `uv_at`: its coordinates by the barycentric ones of its second
+/// and third corner.
+template <class UvAt, class Add>
 void add_triangle_light(std::uint64_t number, std::uint32_t material, vec3 p0, vec3 p1, vec3 p2, vec3 outside,
-                        Add& add) {
+                        const UvAt& uv_at, Add& add) {
   const vec3 c = glm::cross(p1 - p0, p2 - p0);
   const float double_area = glm::length(c);
   if (!(double_area > 0)) return;
   vec3 n = c / double_area;
   if (glm::dot(n, outside) < 0) n = -n;
-  add(number, 1, material, [&](Spectrum radiance, bool two_sided) {
-    return TriangleLight{p0, p1 - p0, p2 - p0, n, 0.5f * double_area, radiance, two_sided};
+  add(number, 1, material, [&](const EmitterRadiance& radiance) {
+    const LightRadiance sent = radiance.over_triangle(uv_at);
+    return TriangleLight{p0, p1 - p0, p2 - p0, n, 0.5f * double_area, sent.mean, sent.two_sided};
   });
 }
 

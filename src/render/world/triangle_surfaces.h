@@ -83,8 +83,10 @@ struct TriangleSurfaces {
     for (const RectangleGeometry& r : rectangles) {
       const std::uint32_t material = set.materials[r.first_triangle];
       if (!emits(material) || !r.is_light()) continue;
-      add(r.first_triangle, 2, material, [&](Spectrum radiance, bool two_sided) {
-        return RectangleLight(r.corner, r.edge_x, r.edge_y, radiance, two_sided);
+      add(r.first_triangle, 2, material, [&](const EmitterRadiance& radiance) {
+        const bool mirrored = set.uvs[set.triangles[r.first_triangle].x].x > 0.5f;
+        const LightRadiance sent = radiance.over_rectangle(mirrored);
+        return RectangleLight(r.corner, r.edge_x, r.edge_y, sent.mean, sent.two_sided, sent.picture);
       });
     }
     auto rectangle = rectangles.begin(); // they are sorted
@@ -96,7 +98,12 @@ struct TriangleSurfaces {
       if (rectangle != rectangles.end() && rectangle->first_triangle <= i && rectangle->is_light()) continue;
       const uvec3 t = set.triangles[i];
       const vec3 p0 = set.positions[t.x], p1 = set.positions[t.y], p2 = set.positions[t.z];
-      add_triangle_light(i, material, p0, p1, p2, glm::cross(p1 - p0, p2 - p0), add);
+      auto uv_at = [&](vec2 barycentric) {
+        Hit hit;
+        hit.kind = PrimitiveKind::triangle, hit.primitive = i, hit.u = barycentric.x, hit.v = barycentric.y;
+        return uv({}, hit);
+      };
+      add_triangle_light(i, material, p0, p1, p2, glm::cross(p1 - p0, p2 - p0), uv_at, add);
     }
   }
 

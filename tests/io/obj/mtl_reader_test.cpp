@@ -100,6 +100,29 @@ TEST_F(MtlReader, StatementsThatDoNotFitAreIgnoredAlone) {
   EXPECT_TRUE(warned("1 x y.mtl:2:1: newmtl without a name"));
 }
 
+TEST_F(MtlReader, AMapOfNsMultipliesTheExponent) {
+  files.write("t.png", test::tiny_png());
+  const std::string map = "map_Ns -s 2 3 t.png\n";
+  const Material& phong = material("Kd 0.5 0.5 0.5\nKs 1 1 1\nNs 250\n" + map);
+  for (const std::string& w : files.warnings(loaded)) EXPECT_EQ(w.find("map_Ns"), std::string::npos) << w;
+  EXPECT_EQ(number(phong, "exponent"), 250);
+  EXPECT_EQ(use_of(phong, "exponent").texture, 0);
+  EXPECT_EQ(use_of(phong, "exponent").uv.scale, vec2(2, 3));
+  EXPECT_EQ(use_of(phong, "exponent").color_space, ColorSpace::linear) << "a number is not encoded";
+  EXPECT_EQ(number(material("Ks 1 1 1\n" + map), "exponent"), 1) << "where it is missing";
+  EXPECT_EQ(number(material("Ks 1 1 1\nNs 0\n" + map), "exponent"), 1);
+  EXPECT_TRUE(warned("1 x x.mtl:1:1: Ns is 0 beside map_Ns: it is taken for 1"));
+  // Matte, a mirror, glass: nothing that could have it.
+  for (const char* other : {"Kd 1 1 1\n", "illum 3\nKs 1 1 1\n", "illum 7\nNi 1.5\n"}) {
+    EXPECT_FALSE(is_textured(material(other + map))) << other;
+    EXPECT_TRUE(loaded.document.scene.textures.empty()) << other;
+    const std::string line = other[0] == 'K' ? "3" : "4";
+    EXPECT_TRUE(warned("1 x x.mtl:" + line +
+                       ":1: 'map_Ns' is ignored: the material has no highlight with an exponent"))
+        << other;
+  }
+}
+
 // Kd .8, Ks .5, Ns 250 is Blender's output for its default material.
 TEST_F(MtlReader, KsBesideKdIsTheHighlightOfAPlastic) {
   Material m =

@@ -118,9 +118,74 @@ TEST(LightStatistical, Rectangle) {
   expect_density(rectangle({-1, 2, -0.5f}, {2, 0, 0}, {0, 0, 1}, true), {0, 4, 0}, {0, 2, 0}, 0.3);
 }
 
+/// Four by three cells, one of them black, over (-1, 2, -0.5) + [0, 2] x [0, 1].
+const EmissionGrid& some_picture() {
+  static const EmissionGrid grid(
+      std::array{1.0f, 0.0f, 3.0f, 2.0f, 0.5f, 9.0f, 1.0f, 1.0f, 4.0f, 2.0f, 0.1f, 1.0f}, 4);
+  return grid;
+}
+RectangleLight picture_light(const EmissionGrid& grid, bool two_sided = false) {
+  return {{-1, 2, -0.5f}, {2, 0, 0}, {0, 0, 1}, {1, 2, 3}, two_sided, &grid};
+}
+
+TEST(LightStatistical, RectangleWithAPicture) {
+  const RectangleLight light = picture_light(some_picture());
+  expect_density(light, {0, 0, 0}, {0, 2, 0}, 0.3);
+  expect_density(light, {0.3f, 1.7f, 0.1f}, {0, 2, 0}, 1);
+  expect_density(light, {4, 1.5f, 1}, {0, 2, 0}, 0.2);
+  expect_density(light, {0, 4, 0}, {0, 2, 0}, 0.3, false); // behind
+  expect_density(picture_light(some_picture(), true), {0, 4, 0}, {0, 2, 0}, 0.3);
+}
+
+/// Of value(place, density in 1/sr), the integral over the solid angle of the light.
+template <class Value>
+double over_light(const RectangleLight& light, const LightSamplingContext& ctx, Value value) {
+  constexpr int kSide = 480;
+  double sum = 0;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const vec2 place = (vec2(x, y) + 0.5f) / static_cast<float>(kSide);
+      const vec3 p = light.at(place.x * light.length_x, place.y * light.length_y);
+      const float one = solid_angle_density(ctx, p, light.normal, light.area(), light.two_sided);
+      if (one > 0)
+        sum += static_cast<double>(value(place, light.pdf(ctx, p, glm::normalize(p - ctx.position)))) /
+               static_cast<double>(one);
+    }
+  return sum / (kSide * kSide);
+}
+
+TEST(Light, DensityOfAPictureIsOneFromNearAndFar) {
+  const RectangleLight light = picture_light(some_picture());
+  for (vec3 from :
+       {vec3(0, 1.9f, 0), vec3(0.2f, 1, 0.3f), vec3(8, -3, 2), vec3(0, -40, 0), vec3(300, -900, 50)})
+    EXPECT_NEAR(over_light(light, {from, {0, 1, 0}}, [](vec2, float pdf) { return pdf; }), 1, 2e-3) << from.y;
+}
+
+TEST(Light, AMostlyBlackPictureHasMuchLessVariance) {
+  std::vector<float> luminance(24 * 16, 0.0f);
+  for (std::size_t cell : {30u, 31u, 54u, 200u}) luminance[cell] = 1; // one in a hundred
+  const EmissionGrid grid(luminance, 24);
+  RectangleLight light = picture_light(grid), even = light;
+  even.picture = nullptr;
+  for (vec3 from : {vec3(0, 1, 0), vec3(2, -4, 3), vec3(0, -40, 0)}) {
+    const LightSamplingContext ctx{from, {0, 1, 0}};
+    auto radiance = [&](vec2 place) { return grid.pdf(place); };
+    const double mean = over_light(light, ctx, [&](vec2 place, float) { return radiance(place); });
+    auto variance = [&](const RectangleLight& l) {
+      return over_light(l, ctx, [&](vec2 place, float pdf) { return sqr(radiance(place)) / pdf; }) -
+             sqr(mean);
+    };
+    EXPECT_LT(20 * variance(light), variance(even)) << from.y;
+    EXPECT_GT(over_light(light, ctx, [](vec2, float pdf) { return pdf > 0 ? 1.0f : 0.0f; }),
+              0.999 * over_light(light, ctx, [](vec2, float) { return 1.0f; }))
+        << "nothing is left out";
+  }
+}
+
 TEST(Light, ManySamplesAtOnceAreTheSameToTheBit) {
   const Light lights[] = {rectangle({-1, 2, -0.5f}, {2, 0, 0}, {0, 0, 1}),
                           rectangle({-1, 2, -0.5f}, {2, 0, 0}, {0, 0, 1}, true),
+                          picture_light(some_picture()),
                           rectangle({0, 40, 0}, {0.05f, 0, 0}, {0, 0, 0.05f}), // far: sampled by area
                           triangle({-1, 2, -0.5f}, {2, 0.5f, 0}, {0.5f, 0, 1.5f}),
                           SphereLight{{0, 3, 0}, 0.5f, {1, 2, 3}, false},

@@ -1,0 +1,71 @@
+#pragma once
+// What emitters with textures send out, as a whole and part by part: for choosing and sampling them.
+
+#include "core/progress.h"
+#include "lights/emission_grid.h"
+#include "render/world/surface_material.h"
+
+#include <functional>
+#include <memory>
+
+namespace candela {
+
+struct EmissionTable {
+  vec3 mean{0};                             ///< W/(m^2 sr)
+  std::shared_ptr<const EmissionGrid> grid; ///< null where the radiance is too even for it to pay
+};
+
+/// Of a rectangle, over whose edges the texture coordinates go from 0 to 1, that of the first from 1 to 0 if
+/// `mirrored`: emission times opacity, as the material evaluates both. The grid has some cells for each
+/// texel, no more than kMostCells along each side; a cell is the mean of lookups, of which a side has
+/// kMostLookups at most. Throws Cancelled soon after `progress` is told to end; it may be null.
+inline constexpr int kMostCells = 256, kMostLookups = 1024;
+EmissionTable tabulate_emission(const SurfaceMaterial& material, bool mirrored,
+                                const Progress* progress = nullptr);
+
+/// What light sampling expects of an emitter, W/(m^2 sr): the mean over its own part of the textures.
+/// `uv_at` maps the unit square to its texture coordinates, equal areas to equal areas.
+vec3 mean_radiance(const SurfaceMaterial& material, const std::function<vec2(vec2)>& uv_at);
+/// The same of a triangle, by the barycentric coordinates of its second and third corner.
+vec3 mean_radiance_of_triangle(const SurfaceMaterial& material, const std::function<vec2(vec2)>& uv_at);
+
+/// What light sampling is told of a light.
+struct LightRadiance {
+  Spectrum mean{0}; ///< W/(m^2 sr); black only where it sends out nothing
+  bool two_sided = false;
+  const EmissionGrid* picture = nullptr; ///< of a rectangle, over its edges
+};
+
+/// Finds the LightRadiance of the lights of a material, given the texture coordinates of each. A path that
+/// meets a partly transparent light sees it with the probability of its opacity; sampling the light must
+/// expect the same.
+class EmitterRadiance {
+public:
+  /// `table` makes the EmissionTable of a rectangle, or knows it.
+  using RectangleTable = std::function<const EmissionTable&(const SurfaceMaterial&, bool mirrored)>;
+  EmitterRadiance(const SurfaceMaterial& material, const RectangleTable& table)
+      : material_(material), table_(table) {}
+
+  /// The arguments as those of mean_radiance, mean_radiance_of_triangle, tabulate_emission.
+  LightRadiance over(const std::function<vec2(vec2)>& uv_at) const {
+    return textured() ? with_mean(mean_radiance(material_, uv_at)) : even();
+  }
+  LightRadiance over_triangle(const std::function<vec2(vec2)>& uv_at) const {
+    return textured() ? with_mean(mean_radiance_of_triangle(material_, uv_at)) : even();
+  }
+  LightRadiance over_rectangle(bool mirrored) const {
+    if (!textured()) return even();
+    const EmissionTable& table = table_(material_, mirrored);
+    return {table.mean, material_.two_sided_emission, table.grid.get()};
+  }
+
+private:
+  bool textured() const { return has_textured_radiance(material_); }
+  LightRadiance with_mean(vec3 mean) const { return {mean, material_.two_sided_emission}; }
+  LightRadiance even() const { return with_mean(material_.emission * material_.opacity); }
+
+  const SurfaceMaterial& material_;
+  const RectangleTable& table_;
+};
+
+} // namespace candela
