@@ -26,16 +26,18 @@ Spectrum bvh_cost_value(const RenderScene& scene, const Ray& ray, RayCounts& cou
 }
 
 Spectrum first_hit_value(const RenderScene& scene, Ray ray, bool met, Hit hit, vec3 forward, View view,
-                         Sampler& sampler, RayCounts& counts) {
+                         Sampler& sampler, RayCounts& counts, const ConeOfRay* cone) {
   const vec3 origin = ray.origin;
   sampler.set_bounce(1);
-  if (!intersect_through_opacity(scene, ray, sampler, met, hit, counts)) return vec3(0);
+  if (!intersect_through_opacity(scene, ray, sampler, met, hit, counts, nullptr, cone)) return vec3(0);
   SurfaceInteraction surface = scene.geometry().surface(ray, hit);
   auto uv = [&] { return scene.geometry().uv(ray, hit); };
   switch (view) {
   case View::albedo: {
     const SurfaceMaterial& material = scene.material(surface.material);
-    return bsdf_albedo(material.textured ? evaluate_bsdf(material, uv()) : material.bsdf);
+    return bsdf_albedo(material.textured
+                           ? evaluate_bsdf(material, texture_point(scene.geometry(), ray, hit, cone))
+                           : material.bsdf);
   }
   case View::normal: return towards_viewer(surface.shading_normal, surface, ray);
   case View::geometric_normal: return towards_viewer(surface.geometric_normal, surface, ray);

@@ -21,8 +21,9 @@ struct VertexLanes {
   Lanes<const SurfaceMaterial*> material;
   Lanes<Bsdf> textured; ///< where the material has a texture
 
-  /// Lane i is where rays[i] met hits[i].
-  void set(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits);
+  /// Lane i is where rays[i] met hits[i]. Textures are filtered over cones[i], if there are cones.
+  void set(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits,
+           std::span<const ConeOfRay* const> cones = {});
   /// Lane 0 is `vertex`, with this BSDF, and there is no other.
   void set_one(const Vertex& vertex, const Bsdf& bsdf);
 

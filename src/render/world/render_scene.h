@@ -27,6 +27,8 @@ public:
   bool has_transparency() const { return has_transparency_; }
   /// Whether any body is filled with something, so that rays must know where they are.
   bool has_media() const { return has_media_; }
+  /// Whether any texture is looked up over the footprint of a ray, so that rays must carry cones.
+  bool filters_textures() const { return filters_textures_; }
   const Medium& medium(MediumId id) const { return materials_->media()[id.index]; }
 
   const std::vector<Light>& lights() const { return lights_->lights(); }
@@ -52,7 +54,7 @@ private:
   std::shared_ptr<const SceneLights> lights_;
   // Of *materials_, where every ray reads them.
   const SurfaceMaterial* surfaces_ = nullptr;
-  bool has_transparency_ = false, has_media_ = false;
+  bool has_transparency_ = false, has_media_ = false, filters_textures_ = false;
 };
 
 } // namespace candela
