@@ -36,8 +36,28 @@ struct CheckerTexture {
     all.channel = TextureChannel::rgb;
     return texel_number(vec4(color(all, uv), 1), use.channel);
   }
+  /// The mean over an upright box that is as wide as the footprint is on average (of the same second
+  /// moments).
+  vec4 filtered(const TextureUse&, const TexturePoint& at) const {
+    const vec2 a = squares * at.footprint.major, b = squares * at.footprint.minor;
+    const vec2 sides = glm::sqrt(a * a + b * b), middle = squares * at.uv;
+    const float share = 0.5f * (1 + mean_stripe(middle.x, sides.x) * mean_stripe(middle.y, sides.y));
+    return vec4(glm::mix(odd, even, share), 1);
+  }
   vec2 cells() const { return vec2(squares); }
   std::size_t memory_bytes() const { return 0; }
+
+private:
+  /// Mean over a length of stripes that are 1 from 0 to 1, -1 to 2, and so on.
+  static float mean_stripe(float middle, float length) {
+    constexpr float kPoint = 1e-3f, kMany = 1e6f; // a point; so many that they even out
+    auto phase = [](float x) { return x - 2 * std::floor(0.5f * x); };
+    const float m = phase(middle);
+    if (!(length > kPoint)) return m < 1 ? 1.0f : -1.0f;
+    if (!(length < kMany)) return 0;
+    auto integral = [&](float x) { return 1 - std::abs(phase(x) - 1); }; // from 0
+    return (integral(m + 0.5f * length) - integral(m - 0.5f * length)) / length;
+  }
 };
 
 } // namespace candela

@@ -1,31 +1,10 @@
 #include "textures/image_texture.h"
 
-#include "core/color.h"
-
-#include <array>
+#include "textures/texel_decoding.h"
 
 namespace candela {
 
 namespace {
-
-/// Values of all integers of the type that an sRGB picture may hold.
-template <class Integer>
-const std::vector<float>& linear_from_srgb_table() {
-  static const std::vector<float> table = [] {
-    constexpr std::size_t kMost = std::numeric_limits<Integer>::max();
-    std::vector<float> t(kMost + 1);
-    for (std::size_t i = 0; i < t.size(); ++i)
-      t[i] = linear_from_srgb(static_cast<float>(i) / static_cast<float>(kMost));
-    return t;
-  }();
-  return table;
-}
-
-/// The integers' values without an encoding.
-template <class Integer>
-float linear_value(Integer i) {
-  return static_cast<float>(i) / static_cast<float>(std::numeric_limits<Integer>::max());
-}
 
 /// Reads texels as the use asks: `decode` takes what is stored to a linear value.
 template <class T, class Decode>
@@ -71,17 +50,9 @@ auto with_reader(const Texels& texels, const TextureUse& use, Look look) {
       [&](const auto& values) {
         using T = typename std::decay_t<decltype(values)>::value_type;
         const auto n = static_cast<std::size_t>(texels.channels);
-        auto reading = [&](auto decode) {
+        return with_decoding<T>(use.color_space, [&](auto decode) {
           return look(TexelReader<T, decltype(decode)>{values, n, use.channel, decode});
-        };
-        if constexpr (std::is_floating_point_v<T>) {
-          return reading([](float value) { return value; });
-        } else {
-          if (use.color_space == ColorSpace::linear)
-            return reading([](T value) { return linear_value(value); });
-          const float* table = linear_from_srgb_table<T>().data();
-          return reading([table](T value) { return table[value]; });
-        }
+        });
       },
       texels.data);
 }
@@ -106,23 +77,39 @@ int neighbor(int i, int n, TextureWrap wrap) {
   return std::clamp(i, 0, n - 1);
 }
 
+/// at(x, y) of a picture of w x h texels, blended between the four about p in [0, 1]^2.
+template <class At>
+auto blended(int w, int h, TextureWrap wrap, vec2 p, At at) {
+  float x = p.x * static_cast<float>(w) - 0.5f, y = (1 - p.y) * static_cast<float>(h) - 0.5f;
+  float fx = std::floor(x), fy = std::floor(y);
+  int x0 = neighbor(static_cast<int>(fx), w, wrap), y0 = neighbor(static_cast<int>(fy), h, wrap);
+  int x1 = neighbor(static_cast<int>(fx) + 1, w, wrap), y1 = neighbor(static_cast<int>(fy) + 1, h, wrap);
+  return glm::mix(glm::mix(at(x0, y0), at(x1, y0), x - fx), glm::mix(at(x0, y1), at(x1, y1), x - fx), y - fy);
+}
+
 /// `texel(index)` blended as the use asks.
 template <class Texel>
-auto filtered(const Texels& texels, const TextureUse& use, vec2 uv, Texel texel) {
+auto filtered_at(const Texels& texels, const TextureUse& use, vec2 uv, Texel texel) {
   const int w = texels.width, h = texels.height;
   vec2 p{wrapped(uv.x, use.wrap), wrapped(uv.y, use.wrap)};
   auto at = [&](int i, int j) {
     return texel(static_cast<std::size_t>(j) * static_cast<std::size_t>(w) + static_cast<std::size_t>(i));
   };
-  float x = p.x * static_cast<float>(w), y = (1 - p.y) * static_cast<float>(h);
   if (use.filter == TextureFilter::nearest)
-    return at(std::min(static_cast<int>(x), w - 1), std::min(static_cast<int>(y), h - 1));
-  x -= 0.5f, y -= 0.5f;
-  float fx = std::floor(x), fy = std::floor(y);
-  int x0 = neighbor(static_cast<int>(fx), w, use.wrap), y0 = neighbor(static_cast<int>(fy), h, use.wrap);
-  int x1 = neighbor(static_cast<int>(fx) + 1, w, use.wrap),
-      y1 = neighbor(static_cast<int>(fy) + 1, h, use.wrap);
-  return glm::mix(glm::mix(at(x0, y0), at(x1, y0), x - fx), glm::mix(at(x0, y1), at(x1, y1), x - fx), y - fy);
+    return at(std::min(static_cast<int>(p.x * static_cast<float>(w)), w - 1),
+              std::min(static_cast<int>((1 - p.y) * static_cast<float>(h)), h - 1));
+  return blended(w, h, use.wrap, p, at);
+}
+
+/// The same of a level of a pyramid: red, green, blue, alpha.
+vec4 level_at(const MipPyramid::Level& level, int channels, TextureWrap wrap, vec2 uv) {
+  return blended(
+      level.width, level.height, wrap, {wrapped(uv.x, wrap), wrapped(uv.y, wrap)}, [&](int x, int y) {
+        const auto texel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x);
+        const float* v = &level.values[texel * static_cast<std::size_t>(channels)];
+        return channels == 1 ? vec4(v[0], v[0], v[0], 1) : vec4(v[0], v[1], v[2], channels == 4 ? v[3] : 1);
+      });
 }
 
 } // namespace
@@ -131,15 +118,52 @@ vec3 ImageTexture::color(const TextureUse& use, vec2 uv) const {
   return with_reader(*texels, use, [&](const auto& reader) {
     // What most textures are, without a question for each texel.
     if (texels->channels >= 3 && use.channel == TextureChannel::rgb)
-      return filtered(*texels, use, uv, [&](std::size_t i) { return reader.rgb(i); });
-    return filtered(*texels, use, uv, [&](std::size_t i) { return reader.color(i); });
+      return filtered_at(*texels, use, uv, [&](std::size_t i) { return reader.rgb(i); });
+    return filtered_at(*texels, use, uv, [&](std::size_t i) { return reader.color(i); });
   });
 }
 
 float ImageTexture::number(const TextureUse& use, vec2 uv) const {
   return with_reader(*texels, use, [&](const auto& reader) {
-    return filtered(*texels, use, uv, [&](std::size_t i) { return reader.number(i); });
+    return filtered_at(*texels, use, uv, [&](std::size_t i) { return reader.number(i); });
   });
+}
+
+vec4 ImageTexture::filtered(const TextureUse& use, const TexturePoint& at, const MipPyramid& pyramid) const {
+  // The footprint in texels: how long it is, and how wide at right angles to that.
+  vec2 along = at.footprint.major;
+  const vec2 size = cells();
+  vec2 a = along * size, b = at.footprint.minor * size;
+  if (glm::dot(a, a) < glm::dot(b, b)) std::swap(a, b), along = at.footprint.minor;
+  const float length = glm::length(a);
+  const std::span<const MipPyramid::Level> levels = pyramid.levels();
+  auto picture = [&](vec2 uv) {
+    return with_reader(*texels, use, [&](const auto& reader) {
+      return filtered_at(*texels, use, uv, [&](std::size_t i) { return reader.texel(i * reader.channels); });
+    });
+  };
+  auto level_of = [&](std::size_t i, vec2 uv) {
+    return i == 0 ? picture(uv) : level_at(levels[i - 1], texels->channels, use.wrap, uv);
+  };
+  constexpr float kEndless = 1e9f;
+  if (!(length > 1) || levels.empty()) return picture(at.uv);
+  if (!(length < kEndless)) return level_of(levels.size(), at.uv);
+  // Several lookups along it, each over a square (as in graphics hardware, see McCormack et al. 1999,
+  // "Feline"): of a plane seen at a flat angle one square would blur across, or alias along.
+  constexpr int kMostTaps = 8;
+  const float across = std::abs(a.x * b.y - a.y * b.x) / length;
+  const float width = std::max({across, length / kMostTaps, 1.0f});
+  const int taps = std::clamp(static_cast<int>(std::ceil(length / width)), 1, kMostTaps);
+  const float level = std::min(std::log2(width), static_cast<float>(levels.size()));
+  const auto fine = static_cast<std::size_t>(level);
+  const float rest = level - static_cast<float>(fine);
+  vec4 sum(0);
+  for (int i = 0; i < taps; ++i) {
+    const vec2 uv = at.uv + ((static_cast<float>(i) + 0.5f) / static_cast<float>(taps) - 0.5f) * along;
+    const vec4 value = level_of(fine, uv);
+    sum += rest > 0 ? glm::mix(value, level_of(fine + 1, uv), rest) : value;
+  }
+  return sum / static_cast<float>(taps);
 }
 
 } // namespace candela

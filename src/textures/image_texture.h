@@ -1,6 +1,7 @@
 #pragma once
 
 #include "imaging/texels.h"
+#include "textures/mip_pyramid.h"
 #include "textures/texture_kind.h"
 
 #include <memory>
@@ -24,6 +25,8 @@ struct ImageTexture {
   /// Decoded before they are blended, for light adds linearly.
   vec3 color(const TextureUse& use, vec2 uv) const;
   float number(const TextureUse& use, vec2 uv) const;
+  /// About the mean over the footprint; `pyramid` is of these texels in the use's colour space.
+  vec4 filtered(const TextureUse& use, const TexturePoint& at, const MipPyramid& pyramid) const;
   vec2 cells() const { return {static_cast<float>(texels->width), static_cast<float>(texels->height)}; }
   std::size_t memory_bytes() const { return texels->bytes(); }
 };

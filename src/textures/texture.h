@@ -45,4 +45,20 @@ inline float texture_number(const Texture& texture, const TextureUse& use, vec2 
   return std::visit([&](const auto& kind) { return kind.number(use, at); }, texture.model);
 }
 
+/// The mean over the footprint, as TextureFilter::trilinear has it: red, green, blue, alpha. Pictures need
+/// their pyramid. Nothing of what has none, and of kinds that cannot: look up the point.
+inline std::optional<vec4> texture_filtered(const Texture& texture, const TextureUse& use,
+                                            const TexturePoint& at, const MipPyramid* pyramid) {
+  const TexturePoint moved(use.uv.apply(at.uv), {use.uv.apply_to_step(at.footprint.major),
+                                                 use.uv.apply_to_step(at.footprint.minor)});
+  return std::visit(
+      [&](const auto& kind) -> std::optional<vec4> {
+        if constexpr (requires { kind.filtered(use, moved); }) return kind.filtered(use, moved);
+        if constexpr (requires { kind.filtered(use, moved, *pyramid); })
+          if (pyramid != nullptr) return kind.filtered(use, moved, *pyramid);
+        return std::nullopt;
+      },
+      texture.model);
+}
+
 } // namespace candela

@@ -5,7 +5,7 @@ namespace candela {
 namespace {
 
 constexpr std::string_view kChannels[] = {"rgb", "red", "green", "blue", "alpha"};
-constexpr std::string_view kFilters[] = {"nearest", "bilinear"};
+constexpr std::string_view kFilters[] = {"nearest", "bilinear", "trilinear"};
 constexpr std::string_view kWraps[] = {"repeat", "clamp", "mirror"};
 constexpr std::string_view kSpaces[] = {"srgb", "linear"};
 constexpr auto kImage = Invalidates::image;
@@ -14,8 +14,11 @@ const Field<TextureUse> kFields[] = {
     {{"channel", FieldType::choice, 0, 0, "", "What is taken of a texel: a number takes the luminance of rgb",
       kImage, kChannels},
      [](TextureUse& u) -> void* { return &u.channel; }},
-    {{"filter", FieldType::choice, 0, 0, "", "Between texels: the nearest one, or all four blended", kImage,
-      kFilters},
+    {{"filter", FieldType::choice, 0, 0, "",
+      "Between texels: the nearest one, or all four blended, which converges to the exact picture; trilinear "
+      "is the "
+      "mean over what a pixel covers: smoother with few samples, slightly blurred with many",
+      kImage, kFilters},
      [](TextureUse& u) -> void* { return &u.filter; }},
     {{"wrap", FieldType::choice, 0, 0, "",
       "Outside of the texture: itself again, its border, its mirror image", kImage, kWraps},

@@ -10,7 +10,8 @@ namespace candela {
 
 /// What a parameter takes of a texel. A number takes the luminance of `rgb`, a colour a grey of one channel.
 enum class TextureChannel : int { rgb, red, green, blue, alpha };
-enum class TextureFilter : int { nearest, bilinear };
+/// `trilinear`: over the footprint of the ray that asks, where it has one, else as bilinear.
+enum class TextureFilter : int { nearest, bilinear, trilinear };
 /// What lies outside of [0, 1]^2: the texture again, its border, or its mirror images.
 enum class TextureWrap : int { repeat, clamp, mirror };
 /// What the integers of a picture mean; floats, alpha and procedural textures are linear in any case.

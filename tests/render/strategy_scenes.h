@@ -181,6 +181,39 @@ inline Document textured_lamps_scene() {
   return s.document;
 }
 
+/// Pictures and checkers looked up over footprints: on a matte, a glossy and a mirroring surface, of a lamp,
+/// and of a screen's holes.
+inline Document filtered_textures_scene() {
+  SceneMaker s(8, 8, 1);
+  auto& textures = s.document.scene.textures;
+  textures.push_back(
+      picture_texture(4, 4, {255, 40, 120, 200, 90, 255, 10, 160, 70, 255, 180, 30, 220, 60, 240, 110}, 1));
+  textures.push_back(std::make_shared<const Texture>(Texture{"", CheckerTexture{vec3(0.9f), vec3(0.2f), 3}}));
+  auto look_at = [](TextureUse& use, int texture, float scale) {
+    use.texture = texture;
+    use.filter = TextureFilter::trilinear;
+    use.uv.scale = vec2(scale);
+  };
+  Material floor = strategy_material("diffuse", vec3(0.8f), vec3(0));
+  look_at(use_of(floor), 1, 9);
+  s.rectangle({0, 0, 0}, {0, 0, 3}, {3, 0, 0}, s.material(floor));
+  Material gloss = strategy_material("phong", vec3(0.3f), vec3(0.6f));
+  look_at(use_of(gloss, "specular"), 0, 20);
+  look_at(use_of(gloss, "exponent"), 0, 5);
+  s.rectangle({0, 1.5f, -2}, {3, 0, 0}, {0, 1.5f, 0}, s.material(gloss));
+  s.sphere({1, 0.7f, 0}, 0.7f, s.material(strategy_material("mirror", vec3(0.2f), vec3(0.7f))));
+  Material lamp = strategy_material("diffuse", vec3(0.3f), vec3(0));
+  lamp.emission = vec3{5, 4, 3};
+  look_at(lamp.emission.use, 0, 3);
+  s.rectangle({-0.5f, 2.8f, 0.5f}, {1, 0, 0}, {0, 0, 1}, s.material(lamp));
+  Material screen = strategy_material("diffuse", vec3(0.4f), vec3(0));
+  screen.opacity = 0.9f;
+  look_at(screen.opacity.use, 1, 6);
+  s.rectangle({-1, 1, 1}, {0.8f, 0, 0.2f}, {0, 0.8f, 0}, s.material(screen));
+  s.camera({0, 3, 5}, {0, 0.7f, 0}, 45);
+  return s.document;
+}
+
 inline std::vector<NamedScene> strategy_scenes() {
   Document cornell = cornell_flush(8, 8, 1, true).document;
   return {{"Cornell box with blocks", cornell},
@@ -191,7 +224,8 @@ inline std::vector<NamedScene> strategy_scenes() {
           {"sky, sun and lamp", sky_sun_and_lamp_scene()},
           {"environment and spot", environment_scene()},
           {"coarse smooth gloss", smooth_gloss_scene()},
-          {"textured lamps", textured_lamps_scene()}};
+          {"textured lamps", textured_lamps_scene()},
+          {"filtered textures", filtered_textures_scene()}};
 }
 
 } // namespace candela::test

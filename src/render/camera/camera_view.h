@@ -3,6 +3,7 @@
 // things are seen, not how rays are generated (render/camera/camera_model.h).
 
 #include "core/ray.h"
+#include "render/world/ray_cone.h"
 #include "scene/scene_desc.h"
 
 #include <optional>
@@ -63,6 +64,18 @@ public:
 
   /// Side of the area that a pixel covers at a view depth, across and upwards, in scene units.
   vec2 pixel_footprint(float view_depth) const { return orthographic_ ? pixel_ : pixel_ * view_depth; }
+
+  /// The cone of a pixel about a ray of that unit direction, from a pinhole or parallel. Off the axis by an
+  /// angle a, the pixel's square has cos a and cos^2 a of its sides, by distance along the ray: the mean.
+  RayCone pixel_cone(vec3 direction) const {
+    const float cosine = std::max(glm::dot(direction, forward_), 0.0f);
+    const float shrunk = orthographic_ ? 1 : cosine * std::sqrt(cosine);
+    auto side = [&](float depth) {
+      const vec2 sides = pixel_footprint(depth);
+      return shrunk * std::sqrt(sides.x * sides.y);
+    };
+    return RayCone::of_pixel(side(0), side(1));
+  }
 
   /// Diameter of the disc (or of the circle about the polygon) into which a thin lens blurs a point at a view
   /// depth z, in pixel heights: with the aperture's radius a and the plane of focus at f, the rays through a

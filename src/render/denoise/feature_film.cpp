@@ -31,17 +31,20 @@ public:
   }
 
   /// The sampler stands at the ray's sample; its numbers take the features through glass the way that the
-  /// image's path goes. `media` are the ray's, in scenes with any.
-  Features trace(Ray ray, const MediumStack& media, Sampler& sampler) const {
+  /// image's path goes. `media` are the ray's, in scenes with any. Textures are filtered over the cone, as in
+  /// the image.
+  Features trace(Ray ray, const MediumStack& media, const RayCone& pixel, Sampler& sampler) const {
     Features seen;
     vec3 tint(1);
     RayCounts ignored;
     MediaPassage passage{media, Spectrum(1)};
+    ConeOfRay seen_along{pixel, ray.origin};
+    const ConeOfRay* cone = scene_.filters_textures() ? &seen_along : nullptr;
     for (int depth = 1;; ++depth) {
       sampler.set_bounce(static_cast<std::uint32_t>(depth));
       Hit hit;
-      if (!intersect_scene(scene_, ray, sampler, hit, ignored,
-                           scene_.has_priorities() ? &passage : nullptr)) {
+      if (!intersect_scene(scene_, ray, sampler, hit, ignored, scene_.has_priorities() ? &passage : nullptr,
+                           cone)) {
         seen.albedo = seen.normal = vec3(0);
         seen.position = ray.direction; // farther than the whole scene, so that it differs
         return seen;
@@ -49,14 +52,14 @@ public:
       SurfaceInteraction surface = scene_.geometry().surface(ray, hit);
       const SurfaceMaterial& material = scene_.material(surface.material);
       vec3 wo = -ray.direction;
-      Bsdf bsdf = material.textured != nullptr ? evaluate_bsdf(material, scene_.geometry().uv(ray, hit))
-                                               : material.bsdf;
+      auto texture_at = [&] { return texture_point(scene_.geometry(), ray, hit, cone); };
+      Bsdf bsdf = material.textured != nullptr ? evaluate_bsdf(material, texture_at()) : material.bsdf;
       const bool outside = glm::dot(surface.geometric_normal, wo) > 0;
       set_outside(scene_, material, passage.media, outside, bsdf);
       Basis frame = Basis::from_normal(surface.shading_normal);
       vec3 wo_local = frame.to_local(wo);
       // Lamps are told from what is around them by a reflectance in [0, 1], however bright they are.
-      vec3 emission = emission_at(material, [&] { return scene_.geometry().uv(ray, hit); });
+      vec3 emission = emission_at(material, texture_at);
       emission /= 1 + max_component(emission);
       seen.albedo = tint * (bsdf_albedo(bsdf) + emission);
       seen.normal =
@@ -72,6 +75,7 @@ public:
       if (!same_hemisphere(wo_local, s->wi)) passage.media.cross(material.media, outside);
       ray = {offset_ray_origin(surface.position, surface.position_error, surface.geometric_normal, wi), 0, wi,
              kInfinity};
+      if (cone != nullptr) seen_along = seen_along.after(surface.position, 0);
     }
   }
 
@@ -112,10 +116,9 @@ bool render_features(const RenderScene& scene, const Document& document, std::ui
                      const std::atomic<bool>& stop, int threads) {
   if (spp <= film.spp_) return true;
   const PixelRays rays(document);
+  const CameraView view(document.scene.camera, document.settings.film.width, document.settings.film.height);
   const FeatureTracer tracer(scene, document.settings.path);
-  const FilmSettings& whole = document.settings.film;
-  const MediaNear camera_media(scene,
-                               CameraView(document.scene.camera, whole.width, whole.height).position());
+  const MediaNear camera_media(scene, view.position());
   bool stopped = false;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads > 0 ? threads : omp_get_num_procs())       \
     reduction(||                                                                                             \
@@ -134,7 +137,9 @@ bool render_features(const RenderScene& scene, const Document& document, std::ui
       for (std::uint32_t i = film.spp_; i < spp; ++i) {
         const auto start = rays.start(uvec2(film.origin_ + ivec2(x, y)), i, sampler);
         if (!start) continue; // black
-        const Features f = tracer.trace(start->ray, camera_media.at(start->ray.origin), sampler);
+        const vec3 origin = start->ray.origin, direction = start->ray.direction;
+        const Features f =
+            tracer.trace(start->ray, camera_media.at(origin), view.pixel_cone(direction), sampler);
         const vec3* groups[] = {&f.albedo, &f.normal, &f.position};
         for (std::size_t k = 0; k < FeatureFilm::kChannels; ++k) {
           float v = start->weight * (*groups[k / 3])[static_cast<glm::length_t>(k % 3)];

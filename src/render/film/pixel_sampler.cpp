@@ -99,6 +99,7 @@ void PixelSampler::start(std::span<const SampleIndex> indices) {
     if (!weight) continue;
     weights_[count] = *weight;
     sample_of_[count++] = i;
+    if (scene_.filters_textures()) start.cone = camera_view_.pixel_cone(start.ray.direction);
     if (scene_.has_media()) start.media = camera_media_.at(start.ray.origin);
   }
   starts_.erase(starts_.begin() + static_cast<std::ptrdiff_t>(count), starts_.end());
@@ -115,11 +116,14 @@ void PixelSampler::view_first_hits(std::span<PixelSample> results, RayCounts& co
   hits_.resize(starts_.size());
   scene_.geometry().accel().intersect(camera_rays_, hits_);
   counts.closest += starts_.size();
-  for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
-    results[sample_of_[i]] = {first_hit_value(scene_, starts_[i].ray, starts_[i].media,
-                                              hits_[i].t < kInfinity, hits_[i], camera_view_.forward(), view_,
-                                              starts_[i].sampler, counts),
+  for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i) {
+    PathStart& start = starts_[i];
+    const ConeOfRay cone{start.cone, start.ray.origin};
+    results[sample_of_[i]] = {first_hit_value(scene_, start.ray, start.media, hits_[i].t < kInfinity,
+                                              hits_[i], camera_view_.forward(), view_, start.sampler, counts,
+                                              scene_.filters_textures() ? &cone : nullptr),
                               {}};
+  }
 }
 
 /// By an integrator that takes one sample after the other.

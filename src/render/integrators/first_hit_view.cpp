@@ -26,19 +26,21 @@ Spectrum bvh_cost_value(const RenderScene& scene, const Ray& ray, RayCounts& cou
 }
 
 Spectrum first_hit_value(const RenderScene& scene, Ray ray, const MediumStack& media, bool met, Hit hit,
-                         vec3 forward, View view, Sampler& sampler, RayCounts& counts) {
+                         vec3 forward, View view, Sampler& sampler, RayCounts& counts,
+                         const ConeOfRay* cone) {
   const vec3 origin = ray.origin;
   sampler.set_bounce(1);
   MediaPassage passage{media, Spectrum(1)};
   if (!intersect_through_opacity(scene, ray, sampler, met, hit, counts,
-                                 scene.has_priorities() ? &passage : nullptr))
+                                 scene.has_priorities() ? &passage : nullptr, cone))
     return vec3(0);
   SurfaceInteraction surface = scene.geometry().surface(ray, hit);
   auto uv = [&] { return scene.geometry().uv(ray, hit); };
   switch (view) {
   case View::albedo: {
     const SurfaceMaterial& material = scene.material(surface.material);
-    Bsdf bsdf = material.textured ? evaluate_bsdf(material, uv()) : material.bsdf;
+    Bsdf bsdf = material.textured ? evaluate_bsdf(material, texture_point(scene.geometry(), ray, hit, cone))
+                                  : material.bsdf;
     set_outside(scene, material, passage.media, glm::dot(surface.geometric_normal, ray.direction) < 0, bsdf);
     return bsdf_albedo(bsdf);
   }

@@ -15,12 +15,14 @@ bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
   counts_ = {};
   paths_.clear();
   media_.clear();
+  cones_.clear();
   for (std::uint32_t i = 0; i < starts.size(); ++i) {
     results_[i] = {};
     Path& path = paths_.emplace_back(starts[i]);
     path.result = i;
     path.split = starts[i].sampler.sample() == 0;
     if (scene_.has_media()) media_.push_back(starts[i].media);
+    if (scene_.filters_textures()) cones_.push_back({starts[i].cone, starts[i].ray.origin});
   }
   for (int depth = 1; depth <= last_depth_ && !paths_.empty(); ++depth) {
     intersect(depth, stop);
@@ -32,12 +34,14 @@ bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
     }
     next_paths_.clear();
     next_media_.clear();
+    next_cones_.clear();
     if (depth < last_depth_)
       for (std::size_t begin = 0; begin < arrived_.size(); begin += kLaneCount)
         scatter(begin, std::min(kLaneCount, arrived_.size() - begin), depth, stop);
     if (stop.asked()) return false;
     std::swap(paths_, next_paths_);
     std::swap(media_, next_media_);
+    std::swap(cones_, next_cones_);
   }
   counts += counts_;
   return true;
@@ -92,9 +96,11 @@ void PathTracer::sample_media(StopPoll& stop) {
 bool PathTracer::pass_media(std::size_t index, bool met, Hit& hit) {
   Path& path = paths_[index];
   if (!scene_.has_media())
-    return intersect_through_opacity(scene_, path.ray, path.sampler, met, hit, counts_);
+    return intersect_through_opacity(scene_, path.ray, path.sampler, met, hit, counts_, nullptr,
+                                     cone_of_view(path));
   MediaPassage passage{media_[index], Spectrum(1)};
-  met = intersect_through_opacity(scene_, path.ray, path.sampler, met, hit, counts_, &passage);
+  met = intersect_through_opacity(scene_, path.ray, path.sampler, met, hit, counts_, &passage,
+                                  cone_of_view(path));
   media_[index] = passage.media;
   path.throughput *= passage.transmittance;
   return met;
@@ -133,7 +139,8 @@ void PathTracer::add_emission(int depth) {
     const SurfaceInteraction surface = scene_.geometry().surface(path.ray, hits_[i]);
     const bool outside = glm::dot(-path.ray.direction, surface.geometric_normal) > 0;
     if (!outside && !material.two_sided_emission) continue;
-    const Spectrum emission = emission_at(material, [&] { return scene_.geometry().uv(path.ray, hits_[i]); });
+    const Spectrum emission = emission_at(
+        material, [&] { return texture_point(scene_.geometry(), path.ray, hits_[i], cone_of_view(path)); });
     add_emitted(path, surface, emission, depth);
   }
 }
@@ -186,8 +193,11 @@ void PathTracer::make_vertices(std::size_t begin, std::size_t count, int depth) 
   Lanes<const MediumStack*> media;
   const std::size_t media_count = scene_.has_priorities() ? count : 0;
   for (std::size_t i = 0; i < media_count; ++i) media[i] = &media_of(*arrived_[begin + i]);
+  Lanes<const ConeOfRay*> cones;
+  if (scene_.filters_textures())
+    for (std::size_t i = 0; i < count; ++i) cones[i] = cone_of(*arrived_[begin + i]);
   vertices_.set(scene_, {rays.data(), count}, std::span(hits_).subspan(begin, count),
-                {media.data(), media_count});
+                {media.data(), media_count}, {cones.data(), scene_.filters_textures() ? count : 0});
   scattering_.clear();
   scattering_flags_ = BsdfFlags::none;
   shading_points_.count = 0;
@@ -296,7 +306,7 @@ void PathTracer::continue_paths() {
     survivors[count] = n;
     count += static_cast<std::size_t>(continuation_.survives[directions_[n].lane]);
   }
-  const bool has_media = scene_.has_media();
+  const bool has_media = scene_.has_media(), filters_textures = scene_.filters_textures();
   for (std::uint32_t n : std::span(survivors.data(), count)) {
     const SampledDirection& direction = directions_[n];
     const Path& from = *direction.vertex->path;
@@ -311,11 +321,20 @@ void PathTracer::continue_paths() {
     path.specular_bounce = direction.delta;
     path.bsdf_pdf = direction.bsdf_pdf;
     path.light_context = vertices_.light_context[i];
+    if (filters_textures) continue_cone(direction);
     if (!has_media) continue;
     MediumStack& media = next_media_.emplace_back(media_of(from));
     if (!same_hemisphere(vertices_.wo_local[i], continuation_.wi_local[i])) // it goes through the surface
       media.cross(vertices_.material[i]->media, vertices_.side[i] > 0);
   }
+}
+
+/// A mirror keeps the spread, as if it were flat; what is rough widens it by its lobe.
+void PathTracer::continue_cone(const SampledDirection& direction) {
+  const std::uint32_t i = direction.lane;
+  const float pdf = bsdf_pdf(vertices_.bsdf(i), vertices_.wo_local[i], continuation_.wi_local[i]);
+  next_cones_.push_back(
+      cone_of(*direction.vertex->path)->after(vertices_.position[i], direction.delta ? 0 : lobe_spread(pdf)));
 }
 
 } // namespace candela

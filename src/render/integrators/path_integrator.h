@@ -18,6 +18,7 @@ struct PathStart {
   Ray ray;
   Sampler sampler;
   MediumStack media{}; ///< of the ray's origin, in scenes with media
+  RayCone cone{};      ///< of the pixel, in scenes that filter textures
 };
 
 /// Traces paths many at a time, one segment of all of them after the other (Laine et al. 2013, "Megakernels
@@ -97,6 +98,16 @@ private:
   bool pass_media(std::size_t path, bool met, Hit& hit);
   void divide(Path& path, bool arrives) { (arrives ? arrived_ : escaped_).push_back(&path); }
   void set_light_context(std::size_t lane, const Bsdf& bsdf, BsdfFlags flags);
+  /// Null in scenes that do not filter textures.
+  const ConeOfRay* cone_of(const Path& path) const {
+    return scene_.filters_textures() ? &cones_[static_cast<std::size_t>(&path - paths_.data())] : nullptr;
+  }
+  /// For emission and opacity. Light sampling meets these, too, and has no cone: both strategies must see the
+  /// same.
+  const ConeOfRay* cone_of_view(const Path& path) const {
+    return path.specular_bounce ? cone_of(path) : nullptr;
+  }
+  void continue_cone(const SampledDirection& direction);
   MediumStack& media_of(const Path& path) { return media_[static_cast<std::size_t>(&path - paths_.data())]; }
   void add_escaped(const Path& path, std::uint32_t light, Spectrum radiance, float pdf, int depth);
   void add_emitted(const Path& path, const SurfaceInteraction& surface, Spectrum emission, int depth);
@@ -113,8 +124,9 @@ private:
   std::vector<Path> paths_, next_paths_;
   /// Of their rays, parallel to them; in scenes with media alone.
   std::vector<MediumStack> media_, next_media_;
-  std::vector<const Ray*> rays_; ///< of the paths, where they are traced together
-  std::vector<Hit> hits_;        ///< of the paths; once these are divided, parallel to arrived_
+  std::vector<ConeOfRay> cones_, next_cones_; ///< likewise, in scenes that filter textures alone
+  std::vector<const Ray*> rays_;              ///< of the paths, where they are traced together
+  std::vector<Hit> hits_;                     ///< of the paths; once these are divided, parallel to arrived_
   std::vector<Path*> escaped_;
   std::vector<EnvironmentMap::Place> places_; ///< parallel to escaped_
   std::vector<Path*> arrived_;                ///< at a surface

@@ -26,7 +26,8 @@ bool is_hidden(const RenderScene& scene, const SurfaceMaterial& material, const 
 } // namespace
 
 bool detail::intersect_through_media(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met,
-                                     Hit& hit, RayCounts& counts, MediaPassage* passage) {
+                                     Hit& hit, RayCounts& counts, MediaPassage* passage,
+                                     const ConeOfRay* cone) {
   auto advance = [&](float distance) {
     if (passage != nullptr)
       passage->transmittance *= transmittance(scene, passage->media, ray, distance, sampler);
@@ -39,7 +40,8 @@ bool detail::intersect_through_media(const RenderScene& scene, Ray& ray, const S
     const SurfaceMaterial& material = scene.material(scene.geometry().material_of(hit));
     advance(hit.t);
     if (passage == nullptr || !is_hidden(scene, material, passage->media, ray, hit)) {
-      const float opacity = opacity_at(material, [&] { return scene.geometry().uv(ray, hit); });
+      const float opacity =
+          opacity_at(material, [&] { return texture_point(scene.geometry(), ray, hit, cone); });
       if (opacity >= 1 || sampler.get_1d(Dimension::opacity, crossing) < opacity) return true;
     }
     if (crossing + 1 == kMaxCrossings) return false;

@@ -3,6 +3,7 @@
 
 #include "render/integrators/media_at.h"
 #include "render/integrators/ray_counts.h"
+#include "render/world/texture_point.h"
 #include "sampling/sampler.h"
 
 namespace candela {
@@ -22,7 +23,7 @@ namespace detail {
 
 /// intersect_through_opacity() where anything may be passed or there are media.
 bool intersect_through_media(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met, Hit& hit,
-                             RayCounts& counts, MediaPassage* passage);
+                             RayCounts& counts, MediaPassage* passage, const ConeOfRay* cone);
 
 } // namespace detail
 
@@ -30,18 +31,20 @@ bool intersect_through_media(const RenderScene& scene, Ray& ray, const Sampler& 
 /// surface lets it through with the probability 1 - opacity; each crossing has a random number of its own.
 /// Surfaces that `passage` hides (MediumStack) are not there. The ray then starts behind the last surface
 /// that it passed. `passage`, which is null in scenes without media, is brought to the surface, or to
-/// infinity.
+/// infinity. `cone`, if not null: textures of opacity are filtered over it.
 inline bool intersect_through_opacity(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met,
-                                      Hit& hit, RayCounts& counts, MediaPassage* passage = nullptr) {
+                                      Hit& hit, RayCounts& counts, MediaPassage* passage = nullptr,
+                                      const ConeOfRay* cone = nullptr) {
   if (!scene.has_transparency() && passage == nullptr) return met;
-  return detail::intersect_through_media(scene, ray, sampler, met, hit, counts, passage);
+  return detail::intersect_through_media(scene, ray, sampler, met, hit, counts, passage, cone);
 }
 /// The same where the closest hit is not known yet.
 inline bool intersect_scene(const RenderScene& scene, Ray& ray, const Sampler& sampler, Hit& hit,
-                            RayCounts& counts, MediaPassage* passage = nullptr) {
+                            RayCounts& counts, MediaPassage* passage = nullptr,
+                            const ConeOfRay* cone = nullptr) {
   ++counts.closest;
   const bool met = scene.geometry().accel().intersect(ray, hit);
-  return intersect_through_opacity(scene, ray, sampler, met, hit, counts, passage);
+  return intersect_through_opacity(scene, ray, sampler, met, hit, counts, passage, cone);
 }
 
 /// The end of a shadow ray.

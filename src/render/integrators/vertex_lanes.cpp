@@ -44,7 +44,7 @@ struct TriangleLanes {
 } // namespace
 
 void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits,
-                      std::span<const MediumStack* const> media) {
+                      std::span<const MediumStack* const> media, std::span<const ConeOfRay* const> cones) {
   const Geometry& geometry = scene.geometry();
   const TriangleSet& world = geometry.world();
   TriangleLanes triangles;
@@ -77,8 +77,9 @@ void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays
     position_error.set(i, s.position_error);
     geometric_normal.set(i, s.geometric_normal);
     normal.set(i, s.shading_normal);
-    if (material[i]->textured != nullptr)
-      varying[i] = evaluate_bsdf(*material[i], geometry.uv(*rays[i], hits[i]));
+    if (material[i]->textured == nullptr) continue;
+    const ConeOfRay* cone = !cones.empty() && material[i]->textured->is_filtered ? cones[i] : nullptr;
+    varying[i] = evaluate_bsdf(*material[i], texture_point(geometry, *rays[i], hits[i], cone));
   }
   set_frames(wo, *this);
   for (std::size_t i = 0; i < media.size(); ++i) {

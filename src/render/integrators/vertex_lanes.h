@@ -22,8 +22,9 @@ struct VertexLanes {
   Lanes<Bsdf> varying; ///< where the BSDF depends on the hit (SurfaceMaterial::varies)
 
   /// Lane i is where rays[i] met hits[i]. media[i] are those of the ray; none in scenes without priorities.
+  /// Textures are filtered over cones[i], if there are cones.
   void set(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits,
-           std::span<const MediumStack* const> media = {});
+           std::span<const MediumStack* const> media = {}, std::span<const ConeOfRay* const> cones = {});
   /// Lane 0 is `vertex`, with this BSDF, and there is no other.
   void set_one(const Vertex& vertex, const Bsdf& bsdf);
 

@@ -19,6 +19,7 @@ struct SpecularRay {
   float eta_scale = 1;
   std::uint32_t branch = 1; ///< a bit per choice, the leading one marks their number
   MediumStack media{};      ///< of the ray, in scenes with media
+  ConeOfRay cone{};         ///< in scenes that filter textures
 };
 
 class WhittedTracer {
@@ -35,6 +36,7 @@ public:
     SpecularRay first;
     first.ray = start.ray;
     first.media = start.media;
+    first.cone = {start.cone, start.ray.origin};
     trace_ray(first, 1);
     return sample_;
   }
@@ -46,8 +48,9 @@ private:
       set_sampler(path, depth);
       Hit hit;
       MediaPassage passage{path.media, Spectrum(1)};
-      const bool met =
-          intersect_scene(scene_, path.ray, sampler_, hit, counts_, scene_.has_media() ? &passage : nullptr);
+      const ConeOfRay* cone = scene_.filters_textures() ? &path.cone : nullptr;
+      const bool met = intersect_scene(scene_, path.ray, sampler_, hit, counts_,
+                                       scene_.has_media() ? &passage : nullptr, cone);
       path.media = passage.media;
       path.throughput *= passage.transmittance;
       if (!met) {
@@ -57,13 +60,11 @@ private:
       const Vertex vertex(scene_, path.ray, hit);
       const SurfaceMaterial& material = *vertex.material;
       bool outside = vertex.side > 0;
+      auto texture_at = [&] { return texture_point(scene_.geometry(), path.ray, hit, cone); };
       if (material.emissive && (outside || material.two_sided_emission) && shows_depth(settings_, depth))
-        sample_.add(path.throughput *
-                        emission_at(material, [&] { return scene_.geometry().uv(path.ray, hit); }),
-                    depth);
+        sample_.add(path.throughput * emission_at(material, texture_at), depth);
       if (depth == last_depth_ || !vertex.scatters()) return;
-      Bsdf bsdf = material.textured != nullptr ? evaluate_bsdf(material, scene_.geometry().uv(path.ray, hit))
-                                               : material.bsdf;
+      Bsdf bsdf = material.textured != nullptr ? evaluate_bsdf(material, texture_at()) : material.bsdf;
       set_outside(scene_, material, path.media, outside, bsdf);
       if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1) {
         Spectrum light =
@@ -118,6 +119,7 @@ private:
     }
     if (!reflected) path.media.cross(vertex.material->media, vertex.side > 0);
     path.ray = spawn_ray(vertex.surface, wi);
+    if (scene_.filters_textures()) path.cone = path.cone.after(vertex.surface.position, 0);
     return true;
   }
 

@@ -4,6 +4,7 @@
 // Cones").
 
 #include "render/world/surface_interaction.h"
+#include "textures/uv_footprint.h"
 
 namespace candela {
 
@@ -27,9 +28,26 @@ struct RayCone {
   }
 };
 
-/// The ellipse of texture coordinates that a cone covers: its axes, whole.
-struct UvFootprint {
-  vec2 major{0}, minor{0};
+/// What a rough surface adds to the spread of a path that it scatters with this density of its BSDF, 1/sr:
+/// the cones of 16 such paths fill the lobe. As by Suykens and Willems 2001, "Path Differentials and
+/// Applications", a footprint is what a sample has to itself; the number is a guess at how many paths of a
+/// pixel go this way. The BSDF's own density, whatever directions are sampled by, so that the mean of a
+/// picture does not depend on that.
+inline float lobe_spread(float pdf) {
+  constexpr float kPaths = 16, kMost = 0.5f;
+  return pdf > 0 ? std::min(2 / std::sqrt(kPi * kPaths * pdf), kMost) : kMost;
+}
+
+/// The cone of a ray that may have passed transparent surfaces since, and so begin elsewhere.
+struct ConeOfRay {
+  RayCone cone;
+  vec3 origin{0};
+
+  float width_at(vec3 point) const { return cone.width_at(glm::length(point - origin)); }
+  /// Of the ray that leaves `point`, see RayCone::after.
+  ConeOfRay after(vec3 point, float more_spread) const {
+    return {cone.after(glm::length(point - origin), more_spread), point};
+  }
 };
 
 /// Of a cone `width` wide about the unit `direction`, on a surface with that unit geometric normal. In scene

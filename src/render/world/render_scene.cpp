@@ -25,17 +25,19 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
   scene->geometry_ = std::move(geometry);
   scene->instances_ = same_geometry ? previous->instances_
                                     : std::make_shared<const std::vector<Instance>>(document.scene.instances);
-  scene->materials_ = SceneMaterials::of(document, previous != nullptr ? previous->materials_ : nullptr);
+  scene->materials_ =
+      SceneMaterials::of(document, previous != nullptr ? previous->materials_ : nullptr, progress);
   scene->surfaces_ = scene->materials_->data();
   scene->has_transparency_ = scene->materials_->has_transparency();
   scene->has_priorities_ = scene->materials_->has_priorities();
+  scene->filters_textures_ = scene->materials_->filters_textures();
   scene->has_media_ = !scene->materials_->media().empty();
   scene->lights_ = SceneLights::of(document, scene->geometry_, scene->materials_,
                                    previous != nullptr ? previous->lights_ : nullptr, progress);
   return scene;
 }
 
-void SceneMaterials::add_materials(const Document& document) {
+void SceneMaterials::add_materials(const Document& document, const MipPyramidSource& pyramids) {
   const OverrideSettings& o = document.settings.override_brdf;
   const Material overriding = o.is_on() ? overriding_material(o) : Material();
   std::vector<const Material*> scattering; // what each surface scatters by
@@ -43,9 +45,9 @@ void SceneMaterials::add_materials(const Document& document) {
     if (o.is_on()) {
       Material m = own;
       m.model = overriding.model;
-      materials_.add(m, textures_);
+      materials_.add(m, textures_, pyramids);
     } else {
-      materials_.add(own, textures_);
+      materials_.add(own, textures_, pyramids);
     }
     scattering.push_back(o.is_on() ? &overriding : &own);
     has_transparency_ |= own.opacity.value < 1 || own.opacity.is_textured();

@@ -32,6 +32,8 @@ public:
   bool has_passable_surfaces() const { return has_transparency_ || has_priorities_; }
   /// Whether any body is filled with something, so that rays must know where they are.
   bool has_media() const { return has_media_; }
+  /// Whether any texture is looked up over the footprint of a ray, so that rays must carry cones.
+  bool filters_textures() const { return filters_textures_; }
   const Medium& medium(MediumId id) const { return materials_->media()[id.index]; }
   /// Index of refraction over vacuum; 1 of no medium.
   float ior(MediumId id) const { return id ? materials_->media_iors()[id.index] : 1; }
@@ -59,7 +61,7 @@ private:
   std::shared_ptr<const SceneLights> lights_;
   // Of *materials_, where every ray reads them.
   const SurfaceMaterial* surfaces_ = nullptr;
-  bool has_transparency_ = false, has_priorities_ = false, has_media_ = false;
+  bool has_transparency_ = false, has_priorities_ = false, has_media_ = false, filters_textures_ = false;
 };
 
 } // namespace candela

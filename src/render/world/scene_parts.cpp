@@ -23,23 +23,40 @@ bool emits_alike(const SurfaceMaterial& a, const SurfaceMaterial& b) {
          is_same(a.opacity_texture, b.opacity_texture);
 }
 
-SceneMaterials::SceneMaterials(const Document& document)
+SceneMaterials::SceneMaterials(const Document& document, const SceneMaterials* previous,
+                               const Progress* progress)
     : source_(document.scene.materials), textures_(document.scene.textures),
       override_(document.settings.override_brdf) {
-  add_materials(document);
+  add_materials(document, [&](const ImageTexture& image, ColorSpace space) {
+    auto fits = [&](const auto& pyramid) {
+      return pyramid->texels() == image.texels && pyramid->color_space() == space;
+    };
+    const auto own = std::ranges::find_if(pyramids_, fits);
+    if (own != pyramids_.end()) return own->get();
+    std::shared_ptr<const MipPyramid> pyramid;
+    if (previous != nullptr) {
+      const auto known = std::ranges::find_if(previous->pyramids_, fits);
+      if (known != previous->pyramids_.end()) pyramid = *known;
+    }
+    if (!pyramid) pyramid = std::make_shared<const MipPyramid>(image.texels, space, progress);
+    pyramids_.push_back(pyramid);
+    return pyramid.get();
+  });
 }
 
 std::shared_ptr<const SceneMaterials> SceneMaterials::of(const Document& document,
-                                                         std::shared_ptr<const SceneMaterials> previous) {
+                                                         std::shared_ptr<const SceneMaterials> previous,
+                                                         const Progress* progress) {
   if (previous != nullptr && previous->source_ == document.scene.materials &&
       previous->textures_ == document.scene.textures &&
       previous->override_ == document.settings.override_brdf)
     return previous;
-  return std::make_shared<const SceneMaterials>(document);
+  return std::make_shared<const SceneMaterials>(document, previous.get(), progress);
 }
 
 std::size_t SceneMaterials::memory_bytes() const {
   std::size_t bytes = materials_.memory_bytes();
+  for (const auto& pyramid : pyramids_) bytes += pyramid->memory_bytes();
   std::set<const void*> counted; // several textures may share their texels
   for (const auto& texture : textures_) {
     const ImageTexture* image = texture->image();

@@ -16,12 +16,15 @@ namespace candela {
 /// A document's materials.
 class SceneMaterials {
 public:
-  explicit SceneMaterials(const Document& document);
+  /// Pyramids of pictures of `previous` (may be null) serve again.
+  explicit SceneMaterials(const Document& document, const SceneMaterials* previous = nullptr,
+                          const Progress* progress = nullptr);
   SceneMaterials(const SceneMaterials&) = delete;
   SceneMaterials& operator=(const SceneMaterials&) = delete;
   /// Those of `previous` (may be null) where they are of the same materials, textures and override.
   static std::shared_ptr<const SceneMaterials> of(const Document& document,
-                                                  std::shared_ptr<const SceneMaterials> previous);
+                                                  std::shared_ptr<const SceneMaterials> previous,
+                                                  const Progress* progress = nullptr);
 
   const SurfaceMaterial& operator[](std::size_t i) const { return materials_[i]; }
   auto begin() const { return materials_.begin(); }
@@ -29,6 +32,7 @@ public:
   /// Null where there are none.
   const SurfaceMaterial* data() const { return begin() == end() ? nullptr : &*begin(); }
   bool has_transparency() const { return has_transparency_; }
+  bool filters_textures() const { return materials_.filters_textures(); }
   const std::vector<Medium>& media() const { return media_; }
   /// Parallel to media(): their index of refraction over vacuum.
   const std::vector<float>& media_iors() const { return media_iors_; }
@@ -36,7 +40,7 @@ public:
   std::size_t memory_bytes() const;
 
 private:
-  void add_materials(const Document& document);
+  void add_materials(const Document& document, const MipPyramidSource& pyramids);
   void add_media(const std::vector<const Material*>& materials);
 
   // Made of:
@@ -44,6 +48,7 @@ private:
   std::vector<std::shared_ptr<const Texture>> textures_;
   OverrideSettings override_;
 
+  std::vector<std::shared_ptr<const MipPyramid>> pyramids_; ///< what materials_ point to
   SurfaceMaterials materials_;
   bool has_transparency_ = false, has_priorities_ = false;
   std::vector<Medium> media_; ///< empty where nothing absorbs or has a priority

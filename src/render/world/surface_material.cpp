@@ -5,7 +5,8 @@ namespace candela {
 namespace {
 
 TexturedParameter textured_parameter(const MaterialField& row, const ParameterRef& parameter,
-                                     const std::vector<std::shared_ptr<const Texture>>& textures) {
+                                     const std::vector<std::shared_ptr<const Texture>>& textures,
+                                     const MipPyramidSource& pyramids) {
   TexturedParameter out;
   out.use = parameter.use();
   out.texture = textures[static_cast<std::size_t>(out.use.texture)].get();
@@ -13,6 +14,8 @@ TexturedParameter textured_parameter(const MaterialField& row, const ParameterRe
   out.offset = parameter.number != nullptr ? vec3(parameter.number->offset) : parameter.color->offset;
   out.lowest = static_cast<float>(row.minimum);
   out.highest = static_cast<float>(row.maximum);
+  const ImageTexture* image = out.texture->image();
+  if (out.is_filtered() && image != nullptr && pyramids) out.pyramid = pyramids(*image, out.use.color_space);
   return out;
 }
 
@@ -24,28 +27,30 @@ Bsdf make_bsdf(const Material& material) {
       [](const auto& closure) { return Bsdf(closure); });
 }
 
-Bsdf evaluate_bsdf(const SurfaceMaterial& material, vec2 uv) {
+Bsdf evaluate_bsdf(const SurfaceMaterial& material, const TexturePoint& point) {
   const TexturedModel& textured = *material.textured;
   auto at = [&]<class T>(const Parameter<T>& parameter) -> T {
     if (!parameter.is_textured()) return parameter.value;
     const TexturedParameter& lookup = textured.lookups[static_cast<std::size_t>(parameter.use.texture)];
     if constexpr (std::is_same_v<T, float>)
-      return lookup.number(uv);
+      return lookup.number(point);
     else
-      return lookup.color(uv);
+      return lookup.color(point);
   };
   return with_closure(textured.model, at, [](const auto& closure) { return Bsdf(closure); });
 }
 
 void SurfaceMaterials::add(const Material& material,
-                           const std::vector<std::shared_ptr<const Texture>>& textures) {
+                           const std::vector<std::shared_ptr<const Texture>>& textures,
+                           const MipPyramidSource& pyramids) {
   SurfaceMaterial& out = materials_.emplace_back();
   out.bsdf = make_bsdf(material);
   Material numbered = material; // whose uses name lookups rather than textures
   std::vector<TexturedParameter> lookups;
   each_parameter(numbered, [&](const MaterialField& row, const ParameterRef& parameter) {
     if (parameter.use().texture < 0) return;
-    const TexturedParameter textured = textured_parameter(row, parameter, textures);
+    const TexturedParameter textured = textured_parameter(row, parameter, textures, pyramids);
+    filters_textures_ |= textured.is_filtered();
     if (parameter.number == &numbered.opacity) {
       out.opacity_texture = keep(textured);
     } else if (parameter.color == &numbered.emission) {
@@ -56,7 +61,8 @@ void SurfaceMaterials::add(const Material& material,
     }
   });
   if (!lookups.empty()) {
-    models_.push_back({numbered.model, std::move(lookups)});
+    const bool filtered = std::ranges::any_of(lookups, &TexturedParameter::is_filtered);
+    models_.push_back({numbered.model, std::move(lookups), filtered});
     out.textured = &models_.back();
     out.varies = true;
   }

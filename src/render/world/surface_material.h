@@ -8,6 +8,7 @@
 #include "textures/texture.h"
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -19,12 +20,28 @@ struct TexturedParameter {
   TextureUse use;
   vec3 factor{1}, offset{0};
   float lowest = 0, highest = 1;
+  const MipPyramid* pyramid = nullptr; ///< of a picture that is filtered
 
-  vec3 color(vec2 uv) const {
-    return glm::clamp(factor * texture_color(*texture, use, uv) + offset, lowest, highest);
+  /// Whether it is looked up over a footprint, where there is one.
+  bool is_filtered() const { return use.filter == TextureFilter::trilinear; }
+  vec3 color(const TexturePoint& at) const {
+    vec3 texel;
+    if (const auto mean = mean_over(at))
+      texel = texel_color(*mean, use.channel);
+    else
+      texel = texture_color(*texture, use, at.uv);
+    return glm::clamp(factor * texel + offset, lowest, highest);
   }
-  float number(vec2 uv) const {
-    return std::clamp(factor.x * texture_number(*texture, use, uv) + offset.x, lowest, highest);
+  float number(const TexturePoint& at) const {
+    const auto mean = mean_over(at);
+    const float texel = mean ? texel_number(*mean, use.channel) : texture_number(*texture, use, at.uv);
+    return std::clamp(factor.x * texel + offset.x, lowest, highest);
+  }
+
+private:
+  std::optional<vec4> mean_over(const TexturePoint& at) const {
+    if (!is_filtered() || at.is_point()) return std::nullopt;
+    return texture_filtered(*texture, use, at, pyramid);
   }
 };
 
@@ -32,6 +49,7 @@ struct TexturedParameter {
 struct TexturedModel {
   MaterialModel model;
   std::vector<TexturedParameter> lookups;
+  bool is_filtered = false; ///< any of them: it asks for the footprint
 };
 
 struct SurfaceMaterial {
@@ -52,10 +70,10 @@ struct SurfaceMaterial {
 /// The closure of a material's constants; textured parameters are taken for their factors.
 Bsdf make_bsdf(const Material& material);
 
-/// The BSDF of a material whose `textured` is not null, at uv.
-Bsdf evaluate_bsdf(const SurfaceMaterial& material, vec2 uv);
+/// The BSDF of a material whose `textured` is not null.
+Bsdf evaluate_bsdf(const SurfaceMaterial& material, const TexturePoint& at);
 
-// `uv()` is asked only where something is textured.
+// `uv()`, a vec2 or a TexturePoint, is asked only where something is textured.
 
 template <class Uv>
 vec3 emission_at(const SurfaceMaterial& material, Uv uv) {
@@ -71,10 +89,17 @@ inline bool has_textured_radiance(const SurfaceMaterial& material) {
   return material.emissive && (material.emission_texture != nullptr || material.opacity_texture != nullptr);
 }
 
+/// The pyramid of a picture, which somebody else owns.
+using MipPyramidSource = std::function<const MipPyramid*(const ImageTexture&, ColorSpace)>;
+
 /// The materials of a scene, and the textures that they look at.
 class SurfaceMaterials {
 public:
-  void add(const Material& material, const std::vector<std::shared_ptr<const Texture>>& textures);
+  /// Pictures that are filtered have the pyramids of that source.
+  void add(const Material& material, const std::vector<std::shared_ptr<const Texture>>& textures,
+           const MipPyramidSource& pyramids = {});
+  /// Whether any of them looks up footprints.
+  bool filters_textures() const { return filters_textures_; }
 
   const SurfaceMaterial& operator[](std::size_t i) const { return materials_[i]; }
   SurfaceMaterial& operator[](std::size_t i) { return materials_[i]; }
@@ -87,6 +112,7 @@ private:
     return &parameters_.emplace_back(parameter);
   }
 
+  bool filters_textures_ = false;
   std::vector<SurfaceMaterial> materials_;
   std::deque<TexturedModel> models_;         ///< what materials_ point to
   std::deque<TexturedParameter> parameters_; ///< likewise

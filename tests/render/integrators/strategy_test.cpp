@@ -97,6 +97,7 @@ TEST(StrategyStatistical, SkySunAndLamp) { expect_one_expectation(strategy_scene
 TEST(StrategyStatistical, EnvironmentAndSpot) { expect_one_expectation(strategy_scenes()[6], 512); }
 TEST(StrategyStatistical, CoarseSmoothGloss) { expect_one_expectation(strategy_scenes()[7], 1024); }
 TEST(StrategyStatistical, TexturedLamps) { expect_one_expectation(strategy_scenes()[8], 512); }
+TEST(StrategyStatistical, FilteredTextures) { expect_one_expectation(strategy_scenes()[9], 512); }
 
 /// Everything with everything.
 void expect_all_combinations_agree(const NamedScene& scene) {
@@ -127,6 +128,7 @@ TEST(StrategyHeavy, SkySunAndLamp) { expect_all_combinations_agree(strategy_scen
 TEST(StrategyHeavy, EnvironmentAndSpot) { expect_all_combinations_agree(strategy_scenes()[6]); }
 TEST(StrategyHeavy, CoarseSmoothGloss) { expect_all_combinations_agree(strategy_scenes()[7]); }
 TEST(StrategyHeavy, TexturedLamps) { expect_all_combinations_agree(strategy_scenes()[8]); }
+TEST(StrategyHeavy, FilteredTextures) { expect_all_combinations_agree(strategy_scenes()[9]); }
 
 TEST(StrategyStatistical, RouletteKeepsTheMeanOfUnlimitedPaths) {
   Document d = mirror_and_glass_scene();

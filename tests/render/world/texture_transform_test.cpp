@@ -85,8 +85,8 @@ TEST_F(TextureTransform, EveryParameterMayBeATexture) {
         return bsdf_eval(a, wo, wi) == bsdf_eval(b, wo, wi) && bsdf_albedo(a) == bsdf_albedo(b) &&
                through(a) == through(b);
       };
-      EXPECT_TRUE(same(evaluate_bsdf(s, {0.25f, 0.5f}), make_bsdf(low)));
-      EXPECT_TRUE(same(evaluate_bsdf(s, {0.75f, 0.5f}), make_bsdf(high)));
+      EXPECT_TRUE(same(evaluate_bsdf(s, vec2(0.25f, 0.5f)), make_bsdf(low)));
+      EXPECT_TRUE(same(evaluate_bsdf(s, vec2(0.75f, 0.5f)), make_bsdf(high)));
     });
   }
 }
