@@ -2,7 +2,11 @@
 // Textures of every kind. A new kind is a file of this folder and an entry of the list below.
 
 #include "textures/checker_texture.h"
+#include "textures/gradient_texture.h"
+#include "textures/grid_texture.h"
 #include "textures/image_texture.h"
+#include "textures/noise_texture.h"
+#include "textures/worley_texture.h"
 
 #include <optional>
 #include <string>
@@ -11,7 +15,8 @@
 
 namespace candela {
 
-using TextureModel = std::variant<ImageTexture, CheckerTexture>;
+using TextureModel =
+    std::variant<ImageTexture, CheckerTexture, GridTexture, GradientTexture, NoiseTexture, WorleyTexture>;
 
 struct Texture {
   std::string name;
