@@ -17,7 +17,9 @@
 
 namespace candela {
 
-enum class Projection : int { perspective, orthographic };
+enum class Projection : int { perspective, orthographic, spherical };
+/// What a perspective camera looks through: a thin lens, or one of render/camera/lenses.h.
+enum class Lens : int { thin, double_gauss, wide_angle, telephoto, fisheye };
 
 /// A pinhole, or a thin lens when aperture_radius > 0.
 struct Camera {
@@ -33,8 +35,14 @@ struct Camera {
   int blades = 0;                ///< sides of the aperture's polygon; below 3: round
   float blade_rotation = 0;      ///< radians
   float focus_distance = 0;      ///< scene units along the view axis; 0: the distance to the target
+  Lens lens = Lens::thin;
+  float f_stop = 0;            ///< of a lens of elements; 0: wide open
+  float sensor_diagonal = 35;  ///< mm, of the film behind such a lens
+  float units_per_mm = 0.001f; ///< scene units a millimetre of such a lens
   bool operator==(const Camera&) const = default;
 
+  /// Whether rays go through a lens of elements.
+  bool has_elements() const { return projection == Projection::perspective && lens != Lens::thin; }
   float effective_focus_distance() const {
     return focus_distance > 0 ? focus_distance : glm::length(target - position);
   }

@@ -38,7 +38,8 @@ constexpr std::string_view kViews[] = {"radiance", "albedo",   "normal",   "geom
                                        "variance", "samples",  "nonfinite"};
 constexpr std::string_view kToneMaps[] = {"reinhard", "reinhard_simple", "filmic", "aces", "srgb"};
 constexpr std::string_view kFalseColors[] = {"auto", "off", "viridis", "magma"};
-constexpr std::string_view kProjections[] = {"perspective", "orthographic"};
+constexpr std::string_view kProjections[] = {"perspective", "orthographic", "spherical"};
+constexpr std::string_view kLenses[] = {"thin", "double_gauss", "wide_angle", "telephoto", "fisheye"};
 
 constexpr auto kImage = Invalidates::image;
 
@@ -155,8 +156,8 @@ const Field<Document> kRows[] = {
      AT(scene.camera.up)},
     {{"camera.vertical_fov", FieldType::angle, 0.1, 179, "degrees", "Vertical field of view"},
      AT(scene.camera.vertical_fov)},
-    {{"camera.projection", FieldType::choice, 0, 0, "", "Perspective, or parallel rays", kImage,
-      kProjections},
+    {{"camera.projection", FieldType::choice, 0, 0, "",
+      "Perspective, parallel rays, or all directions (360 degrees, equirectangular)", kImage, kProjections},
      AT(scene.camera.projection)},
     {{"camera.orthographic_height",
       FieldType::real,
@@ -192,6 +193,42 @@ const Field<Document> kRows[] = {
       true},
      AT(scene.camera.focus_distance)},
 
+    {{"camera.lens", FieldType::choice, 0, 0, "",
+      "A thin lens, or a published one that rays go through element by element: its field of view follows "
+      "from the "
+      "sensor",
+      kImage, kLenses},
+     AT(scene.camera.lens)},
+    {{"camera.f_stop",
+      FieldType::real,
+      0,
+      128,
+      "",
+      "Of a lens of elements: focal length over the diameter of its pupil; 0: wide open",
+      kImage,
+      {},
+      true},
+     AT(scene.camera.f_stop)},
+    {{"camera.sensor_diagonal",
+      FieldType::real,
+      1,
+      500,
+      "mm",
+      "Diagonal of the film behind a lens of elements",
+      kImage,
+      {},
+      true},
+     AT(scene.camera.sensor_diagonal)},
+    {{"camera.units_per_mm",
+      FieldType::real,
+      1e-6,
+      1e3,
+      "scene units",
+      "Length of a millimetre of a lens of elements; 0.001 in a scene in metres",
+      kImage,
+      {},
+      true},
+     AT(scene.camera.units_per_mm)},
     {{"camera.blades", FieldType::integer, 0, 16, "", "Blades of the aperture; below 3 it is round"},
      AT(scene.camera.blades)},
     {{"camera.blade_rotation", FieldType::angle, -360, 360, "degrees", "Turn of the aperture's blades"},

@@ -10,6 +10,10 @@
 
 namespace candela {
 
+/// Radians: Camera::vertical_fov; of a lens of elements what follows from it and from the film. Of a
+/// spherical camera a stand-in: no plane shows all directions.
+float shown_vertical_fov(const Camera& camera, int width, int height);
+
 /// The camera with its basis worked out. Film positions are in pixels, (0, 0) is the top left corner. The
 /// view is vertical_fov (orthographic_height) high; it is as wide as square pixels make it or, where
 /// Camera::aspect says so, that many times as wide as high.
@@ -21,8 +25,8 @@ public:
         right_(glm::normalize(glm::cross(forward_, camera.up))), up_(glm::cross(right_, forward_)),
         center_(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height)),
         aperture_radius_(camera.aperture_radius), focus_distance_(camera.effective_focus_distance()) {
-    const float view_height =
-        orthographic_ ? camera.orthographic_height : 2 * std::tan(0.5f * camera.vertical_fov);
+    const float view_height = orthographic_ ? camera.orthographic_height
+                                            : 2 * std::tan(0.5f * shown_vertical_fov(camera, width, height));
     pixel_.y = view_height / static_cast<float>(height);
     pixel_.x = camera.aspect > 0 ? camera.aspect * view_height / static_cast<float>(width) : pixel_.y;
   }
