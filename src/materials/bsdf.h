@@ -108,4 +108,34 @@ inline void set_outside_ior(Bsdf& bsdf, float outside) {
       bsdf);
 }
 
+/// Whether the closure tells directions in the surface apart: set_tangent() does something then.
+inline bool is_anisotropic(const Bsdf& bsdf) {
+  return visit_variant(
+      [](const auto& model) {
+        if constexpr (requires { model.is_anisotropic(); })
+          return model.is_anisotropic();
+        else
+          return false;
+      },
+      bsdf);
+}
+/// Whether closures of the type may be anisotropic.
+inline bool has_tangent(const Bsdf& bsdf) {
+  return visit_variant(
+      [](const auto& model) {
+        return requires { model.axis; };
+      },
+      bsdf);
+}
+/// By its member `axis`, where it has that: the direction of the surface's tangent, local, of any length.
+inline void set_tangent(Bsdf& bsdf, vec2 tangent) {
+  const float length = glm::length(tangent);
+  if (!(length > 0)) return;
+  visit_variant(
+      [&](auto& model) {
+        if constexpr (requires { model.axis; }) model.axis = tangent / length;
+      },
+      bsdf);
+}
+
 } // namespace candela

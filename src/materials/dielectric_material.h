@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bsdf/dielectric.h"
-#include "materials/material_model.h"
+#include "materials/interior_rows.h"
 
 namespace candela {
 
@@ -17,27 +17,10 @@ struct DielectricMaterial {
   static constexpr auto rows() {
     using Row = ModelRow<DielectricMaterial>;
     return std::array{
-        Row{{"ior", FieldType::real, 0.1, 10, "",
-             "Index of refraction, inside over outside; with a priority, over vacuum"},
-            &DielectricMaterial::ior},
-        Row{{"transmittance", FieldType::color, 0, 1, "", "Tint of each crossing of the surface"},
-            &DielectricMaterial::transmittance},
-        Row{{"absorption",
-             FieldType::color,
-             0,
-             1e6,
-             "1/scene unit",
-             "Absorption coefficient inside (Beer-Lambert): transmittance over d is exp(-absorption d)",
-             Invalidates::image,
-             {},
-             true},
-            &DielectricMaterial::absorption},
-        Row{{"priority", FieldType::integer, 0, 1000, "",
-             "Which body fills the place where several overlap, such as ice in water: the one of highest "
-             "priority; surfaces of the others inside it are skipped. With a priority, ior is over vacuum "
-             "(of a textured one, its factor). 0: no surface is skipped and ior is inside over outside, as "
-             "for emitting surfaces"},
-            &DielectricMaterial::priority},
+        Row{interior_ior_row(), &DielectricMaterial::ior},
+        Row{crossing_row(), &DielectricMaterial::transmittance},
+        Row{absorption_row(), &DielectricMaterial::absorption},
+        Row{priority_row(), &DielectricMaterial::priority},
     };
   }
   Dielectric closure(const auto& at) const { return {at(ior), at(transmittance)}; }

@@ -15,6 +15,8 @@ constexpr FieldInfo kTypeField{
     "type", FieldType::choice, 0, 0, "", "How the surface scatters light", Invalidates::scene, kTypeNames};
 
 ParameterRef opacity_of(Material& m) { return {&m.opacity, nullptr}; }
+ParameterRef normal_map_of(Material& m) { return {nullptr, &m.normal_map}; }
+ParameterRef bump_of(Material& m) { return {&m.bump, nullptr}; }
 ParameterRef emission_of(Material& m) { return {nullptr, &m.emission}; }
 
 const MaterialField kCommonFields[] = {
@@ -26,6 +28,16 @@ const MaterialField kCommonFields[] = {
     {{{"emission", FieldType::color, 0, 1e9, "W/(m^2 sr)", "Emitted radiance", Invalidates::scene, {}, true},
       [](Material& m) -> void* { return &m.emission.value; }},
      emission_of},
+    {{{"normal_map", FieldType::color, 0, 1, "",
+       "Shading normals in tangent space, as a texture: red along u, green along v (OpenGL), linear",
+       Invalidates::image},
+      [](Material& m) -> void* { return &m.normal_map.value; }},
+     normal_map_of},
+    {{{"bump", FieldType::real, -1e6, 1e6, "scene units",
+       "Height that bends shading normals, as a texture; its factor is the height of white",
+       Invalidates::image},
+      [](Material& m) -> void* { return &m.bump.value; }},
+     bump_of},
     {{{"two_sided_emission", FieldType::boolean, 0, 0, "", "Emit from both sides, not only the normal's",
        Invalidates::scene},
       [](Material& m) -> void* { return &m.two_sided_emission; }}},

@@ -10,12 +10,21 @@ namespace candela {
 
 inline constexpr int kMaterialTypeCount = static_cast<int>(std::variant_size_v<MaterialModel>);
 
+/// The flat normal, and texels that are not encoded.
+inline ColorParameter standard_normal_map() {
+  ColorParameter flat = vec3(0.5f, 0.5f, 1);
+  flat.use.color_space = ColorSpace::linear;
+  return flat;
+}
+
 struct Material {
   std::string name;
   MaterialModel model;
-  NumberParameter opacity = 1.0f;    ///< share of the light that interacts with the surface
-  ColorParameter emission = vec3(0); ///< radiance, W/(m^2 sr)
-  bool two_sided_emission = false;   ///< otherwise only from the side of the geometric normal
+  NumberParameter opacity = 1.0f;                    ///< share of the light that interacts with the surface
+  ColorParameter emission = vec3(0);                 ///< radiance, W/(m^2 sr)
+  ColorParameter normal_map = standard_normal_map(); ///< tangent space, (n + 1) / 2; a constant is no map
+  NumberParameter bump = 0.0f;                       ///< height, scene units; a constant is no map
+  bool two_sided_emission = false;                   ///< otherwise only from the side of the geometric normal
   bool operator==(const Material&) const = default;
 };
 

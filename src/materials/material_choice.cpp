@@ -61,7 +61,9 @@ Material chosen_material(const MaterialChoice& choice, bool all) {
   auto& values = const_cast<MaterialChoice&>(choice);
   for (const auto& from : material_choice_fields()) {
     const MaterialField* to = find_material_field(choice.type, from.key);
-    if (to != nullptr && (all || to->kept)) field_copy(*to, to->address(material), from.address(values));
+    if (to == nullptr || !(all || to->kept) || to->type != from.type) continue;
+    if (field_problem(*to, from.address(values)).empty())
+      field_copy(*to, to->address(material), from.address(values));
   }
   return material;
 }

@@ -49,8 +49,8 @@ std::span<const Field<MaterialChoice>> material_choice_fields();
 /// The row of material_choice_fields() belongs to a parameter, which a closure may depend on.
 bool is_parameter_key(std::string_view key);
 
-/// The material that is chosen. Values that mean something else in a type (ModelRow::kept) are left at its
-/// default unless `all`.
+/// The material that is chosen. Values that its type has no room for, or that mean something else in a type
+/// (ModelRow::kept) are left at its default unless `all`.
 Material chosen_material(const MaterialChoice& choice, bool all);
 
 } // namespace candela

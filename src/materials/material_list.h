@@ -2,15 +2,30 @@
 // The list of materials. A new one is a file of this folder, with its closure if that is no closure of bsdf/,
 // and its name here; files, panels, settings, the lab and the tables of the documents follow from its rows.
 
+#include "materials/blinn_material.h"
+#include "materials/conductor_material.h"
+#include "materials/cook_torrance_material.h"
 #include "materials/dielectric_material.h"
 #include "materials/diffuse_material.h"
 #include "materials/ggx_material.h"
+#include "materials/hair_material.h"
 #include "materials/mirror_material.h"
+#include "materials/open_pbr_material.h"
+#include "materials/oren_nayar_material.h"
 #include "materials/phong_material.h"
+#include "materials/plastic_material.h"
+#include "materials/principled_material.h"
+#include "materials/rough_dielectric_material.h"
+#include "materials/sheen_material.h"
+#include "materials/thin_dielectric_material.h"
+#include "materials/ward_material.h"
 
 namespace candela {
 
 using MaterialModel =
-    std::variant<DiffuseMaterial, PhongMaterial, GgxMaterial, MirrorMaterial, DielectricMaterial>;
+    std::variant<DiffuseMaterial, PhongMaterial, GgxMaterial, MirrorMaterial, DielectricMaterial,
+                 ConductorMaterial, PlasticMaterial, PrincipledMaterial, OpenPbrMaterial,
+                 CookTorranceMaterial, OrenNayarMaterial, WardMaterial, RoughDielectricMaterial,
+                 BlinnMaterial, SheenMaterial, ThinDielectricMaterial, HairMaterial>;
 
 } // namespace candela

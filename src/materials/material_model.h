@@ -22,7 +22,7 @@ namespace candela {
 /// The row of one value of a model.
 template <class Model>
 struct ModelRow : FieldInfo {
-  /// A parameter may be a texture; a plain value belongs to the inside, and is the same everywhere.
+  /// A parameter may be a texture; a plain value is the same everywhere.
   std::variant<NumberParameter Model::*, ColorParameter Model::*, vec3 Model::*, bool Model::*, int Model::*>
       member;
   /// Whether it means the same as other models' values of the same key, so that a change of the type keeps

@@ -53,6 +53,15 @@ std::vector<Group> render_groups(std::vector<std::string>& storage) {
   return groups;
 }
 
+/// Whether the setting has an effect: values of the material that overrides others, once there is one.
+bool is_override_shown(std::string_view key, const Document& document) {
+  const OverrideSettings& chosen = document.settings.override_brdf;
+  const std::string_view value = key.substr(group_of(key).size() + 1);
+  if (value == "brdf") return true;
+  const MaterialField* row = chosen.is_on() ? find_material_field(chosen.brdf - 1, value) : nullptr;
+  return row != nullptr && row->kept;
+}
+
 void film_size_choice(Ui& ui, ViewerState& state) {
   constexpr std::string_view kChoices[] = {"fit window", "fixed"};
   int chosen = state.fit_film ? 0 : 1;
@@ -75,6 +84,7 @@ void render_panel(Ui& ui, ViewerState& state) {
     if (group.prefix == "film") film_size_choice(ui, state);
     for (const auto& row : settings_table()) {
       if (group_of(row.key) != group.prefix) continue;
+      if (group.prefix == "override" && !is_override_shown(row.key, state.document)) continue;
       const bool fitted = state.fit_film && (row.key == "film.width" || row.key == "film.height");
       // The size of a film that fits the window is not an edit, so it is its own default.
       const Document& initial = fitted ? state.document : default_document();

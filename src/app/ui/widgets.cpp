@@ -181,7 +181,12 @@ void Ui::label_cell(const std::string& name, std::string_view label, bool change
     ImGui::GetWindowDrawList()->AddCircleFilled(
         ImVec2(at.x - 5.5f * scale_, at.y + 0.5f * ImGui::GetFrameHeight()), 2.2f * scale_,
         ImGui::GetColorU32(ImGuiCol_CheckMark));
-  ImGui::TextUnformatted(label.data(), label.data() + label.size());
+  // One that is too long for its column ends in dots; its tooltip has the key.
+  std::string shown(label);
+  const float room = (kLabelWidth - 6) * scale_;
+  for (std::size_t kept = label.size(); kept > 0 && ImGui::CalcTextSize(shown.c_str()).x > room;)
+    shown = fmt::format("{}...", label.substr(0, --kept));
+  ImGui::TextUnformatted(shown.c_str());
   record(name + "#label");
 }
 

@@ -3,6 +3,7 @@
 
 #include "render/integrators/media_at.h"
 #include "render/integrators/ray_counts.h"
+#include "render/world/surface_relief.h"
 #include "render/world/texture_point.h"
 #include "sampling/sampler.h"
 
@@ -124,7 +125,10 @@ struct Vertex {
   Vertex(const RenderScene& scene, const Ray& ray, const Hit& hit)
       : surface(scene.geometry().surface(ray, hit)), material(&scene.material(surface.material)),
         wo(-ray.direction), side(glm::dot(wo, surface.geometric_normal)),
-        frame(Basis::from_normal(visible_normal(surface.shading_normal, wo, side))),
+        frame(Basis::from_normal(visible_normal(
+            material->has_relief() ? relief_normal(*material, scene.geometry(), ray, hit, surface)
+                                   : surface.shading_normal,
+            wo, side))),
         wo_local(frame.to_local(wo)), light_context{surface.position, side > 0 ? surface.geometric_normal
                                                                                : -surface.geometric_normal} {}
 

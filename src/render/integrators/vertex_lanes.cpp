@@ -1,5 +1,6 @@
 #include "render/integrators/vertex_lanes.h"
 
+#include "render/world/surface_relief.h"
 #include "render/world/triangle_point.h"
 
 namespace candela {
@@ -41,6 +42,17 @@ struct TriangleLanes {
   }
 }
 
+/// Tells anisotropic closures where their surface's tangents lie.
+[[gnu::noinline]] void orient(VertexLanes& out, const Geometry& geometry, std::span<const Ray* const> rays,
+                              std::span<const Hit> hits) {
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const SurfaceMaterial& material = *out.material[i];
+    if (!material.oriented) continue;
+    if (material.textured == nullptr) out.varying[i] = material.bsdf;
+    orient_bsdf(out.varying[i], geometry, *rays[i], hits[i], out.normal[i]);
+  }
+}
+
 } // namespace
 
 void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays, std::span<const Hit> hits,
@@ -48,16 +60,18 @@ void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays
   const Geometry& geometry = scene.geometry();
   const TriangleSet& world = geometry.world();
   TriangleLanes triangles;
-  Vec3Lanes wo;
+  Vec3Lanes wo{};                               // g++ does not see that all that are read are set
   std::array<std::uint32_t, kLaneCount> others; // hits of anything else
   std::size_t other_count = 0;
+  bool any_oriented = false;
   count = hits.size();
   for (std::uint32_t i = 0; i < count; ++i) {
     const Hit& hit = hits[i];
     wo.set(i, -rays[i]->direction);
     material[i] = &scene.material(geometry.material_of(hit));
+    any_oriented |= material[i]->oriented;
     if (hit.kind != PrimitiveKind::triangle || hit.instance != kNoInstance ||
-        material[i]->textured != nullptr) {
+        material[i]->textured != nullptr || material[i]->has_relief()) {
       others[other_count++] = i;
       triangles.clear(i);
       continue;
@@ -76,15 +90,19 @@ void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays
     position.set(i, s.position);
     position_error.set(i, s.position_error);
     geometric_normal.set(i, s.geometric_normal);
-    normal.set(i, s.shading_normal);
+    const ConeOfRay* relief_cone = cones.empty() ? nullptr : cones[i];
+    normal.set(i, material[i]->has_relief()
+                      ? relief_normal(*material[i], geometry, *rays[i], hits[i], s, relief_cone)
+                      : s.shading_normal);
     if (material[i]->textured == nullptr) continue;
     const ConeOfRay* cone = !cones.empty() && material[i]->textured->is_filtered ? cones[i] : nullptr;
     varying[i] = evaluate_bsdf(*material[i], texture_point(geometry, *rays[i], hits[i], cone));
   }
   set_frames(wo, *this);
+  if (any_oriented) orient(*this, geometry, rays, hits);
   for (std::size_t i = 0; i < media.size(); ++i) {
     if (material[i]->media.inside.priority <= 0) continue;
-    if (material[i]->textured == nullptr) varying[i] = material[i]->bsdf;
+    if (material[i]->textured == nullptr && !material[i]->oriented) varying[i] = material[i]->bsdf;
     set_outside(scene, *material[i], *media[i], side[i] > 0, varying[i]);
   }
   for (std::size_t i = 0; i < count; ++i) {

@@ -65,6 +65,7 @@ private:
         sample_.add(path.throughput * emission_at(material, texture_at), depth);
       if (depth == last_depth_ || !vertex.scatters()) return;
       Bsdf bsdf = material.textured != nullptr ? evaluate_bsdf(material, texture_at()) : material.bsdf;
+      if (material.oriented) orient_bsdf(bsdf, scene_.geometry(), path.ray, hit, vertex.frame.n);
       set_outside(scene_, material, path.media, outside, bsdf);
       if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1) {
         Spectrum light =

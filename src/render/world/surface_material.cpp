@@ -55,6 +55,10 @@ void SurfaceMaterials::add(const Material& material,
       out.opacity_texture = keep(textured);
     } else if (parameter.color == &numbered.emission) {
       out.emission_texture = keep(textured);
+    } else if (parameter.color == &numbered.normal_map) {
+      out.normal_texture = keep(textured);
+    } else if (parameter.number == &numbered.bump) {
+      out.bump_texture = keep(textured);
     } else {
       parameter.use().texture = static_cast<int>(lookups.size());
       lookups.push_back(textured);
@@ -66,6 +70,9 @@ void SurfaceMaterials::add(const Material& material,
     out.textured = &models_.back();
     out.varies = true;
   }
+  // Of one with textures nobody knows before the hit.
+  out.oriented = out.textured != nullptr ? has_tangent(out.bsdf) : is_anisotropic(out.bsdf);
+  out.varies |= out.oriented;
   out.opacity = material.opacity.value;
   out.emission = material.emission.value;
   out.emissive = !is_black(material.emission.value) ||

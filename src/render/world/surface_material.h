@@ -55,13 +55,17 @@ struct TexturedModel {
 struct SurfaceMaterial {
   Bsdf bsdf;                               ///< where `textured` is null
   const TexturedModel* textured = nullptr; ///< evaluate_bsdf() knows the BSDF then
-  bool varies = false; ///< whether the BSDF depends on the hit: is textured, or on what lies outside
+  bool varies =
+      false; ///< whether the BSDF depends on the hit: is textured, oriented, or on what lies outside
+  bool oriented = false;                               ///< whether orient_bsdf() has something to do
   const TexturedParameter* emission_texture = nullptr; ///< emission_at() knows it then
   const TexturedParameter* opacity_texture = nullptr;  ///< opacity_at(), likewise
-  Spectrum emission{0};                                ///< W/(m^2 sr)
+  const TexturedParameter *normal_texture = nullptr, *bump_texture = nullptr; ///< for relief_normal()
+  Spectrum emission{0};                                                       ///< W/(m^2 sr)
   float opacity = 1;
   bool emissive = false;
   bool two_sided_emission = false;
+  bool has_relief() const { return normal_texture != nullptr || bump_texture != nullptr; }
   /// By RenderScene::medium(). Bodies that absorb the same have the same medium; where anything absorbs or
   /// has a priority, a clear dielectric has one, too, for it may lie inside of that.
   MediumInterface media;

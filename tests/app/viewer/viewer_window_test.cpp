@@ -330,10 +330,11 @@ TEST(ViewerScreenshotsUi, LeavesPicturesOfItself) {
     hand.screenshot(name + "_help");
     hand.key(Key::f1);
     hand.unfold_all();
-    hand.reveal("override.diffuse.r");
+    hand.reveal("override.brdf");
     hand.frame(2);
     hand.screenshot(name + "_render");
     hand.reveal("scene.path");
+    hand.reveal("panel.materials");
     hand.click("materials/1");
     hand.frame(2);
     hand.screenshot(name + "_scene");

@@ -124,10 +124,10 @@ TEST(EmissionTable, TrianglesAreAsBrightAsTheirOwnPartOfThePicture) {
   Material lamp = picture_lamp(TextureFilter::nearest);
   lamp.emission.use.color_space = ColorSpace::linear;
   Mesh mesh;
-  // In the white texel, in the black ones, and half of it in each of the left ones.
+  // In the white texel, in the black ones, and in both of the left ones: 7/16 of it in the lower one.
   const vec2 uvs[3][3] = {{{0.1f, 0.6f}, {0.4f, 0.6f}, {0.1f, 0.9f}},
                           {{0.6f, 0.1f}, {0.9f, 0.1f}, {0.6f, 0.9f}},
-                          {{0, 0}, {0.4f, 0.5f}, {0, 1}}};
+                          {{0.1f, 0.35f}, {0.4f, 0.35f}, {0.1f, 0.95f}}};
   for (std::uint32_t i = 0; i < 3; ++i) {
     const auto base = 3 * i;
     const float x = 2 * static_cast<float>(i);
@@ -154,7 +154,7 @@ TEST(EmissionTable, TrianglesAreAsBrightAsTheirOwnPartOfThePicture) {
     auto emission = [&](std::size_t i) { return std::get<TriangleLight>(scene->lights()[i]).emission.x; };
     EXPECT_NEAR(emission(0), 4, 1e-5f);
     EXPECT_NEAR(emission(1), 1e-3f, 1e-6f) << "never 0, for lookups may miss something";
-    EXPECT_NEAR(emission(2), 4 * (1 + 128 / 255.0f) / 2, 0.6f) << "some lookups are at the texels' edge";
+    EXPECT_NEAR(emission(2), 4 * (9 + 7 * 128 / 255.0f) / 16, 0.15f) << "of four lookups two are in each";
   }
 }
 
