@@ -43,6 +43,62 @@ vec3 peak_direction(const TestedBsdf& bsdf, vec3 wo, bool transmitted) {
       vec3(-wo.x / eta, -wo.y / eta, -std::copysign(safe_sqrt(1 - std::min(sine2, 0.99f)), wo.z)));
 }
 
+struct BothWays {
+  vec3 forwards, backwards; ///< over the square of the outside's index, where they are on two sides
+};
+BothWays both_ways(const TestedBsdf& bsdf, vec3 wo, vec3 wi) {
+  vec3 forwards = bsdf.eval_pdf(wo, wi, TransportMode::radiance).f_cos / std::abs(wi.z);
+  vec3 backwards = bsdf.eval_pdf(wi, wo, TransportMode::radiance).f_cos / std::abs(wo.z);
+  if (wo.z * wi.z < 0) (wo.z > 0 ? forwards : backwards) *= sqr(bsdf.ior);
+  return {forwards, backwards};
+}
+
+/// Relative to the greater of both, or to 1/sr.
+float relative_difference(vec3 a, vec3 b) {
+  float most = 0;
+  for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(a[c] - b[c]) / std::max({a[c], b[c], 1.0f}));
+  return most;
+}
+float reciprocity_error(const TestedBsdf& bsdf, vec3 wo, vec3 wi) {
+  const BothWays f = both_ways(bsdf, wo, wi);
+  return relative_difference(f.forwards, f.backwards);
+}
+/// What a change of a direction by the last digits of a float makes of the value.
+float digits_error(const TestedBsdf& bsdf, vec3 wo, vec3 wi) {
+  const BothWays f = both_ways(bsdf, wo, wi);
+  float most = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float step : {-1.2e-7f, 1.2e-7f})
+      for (const bool incident : {false, true}) {
+        vec3 o = wo, i = wi;
+        (incident ? i : o)[axis] += step;
+        const BothWays g = both_ways(bsdf, o, i);
+        most = std::max({most, relative_difference(f.forwards, g.forwards),
+                         relative_difference(f.backwards, g.backwards)});
+      }
+  return most;
+}
+
+/// The greatest of the density and of each channel; values below the normal floats count as equal.
+float relative_error(const BsdfEval& a, const BsdfEval& b) {
+  auto error = [](float x, float y) {
+    return std::abs(x - y) / std::max({std::abs(x), std::abs(y), 1e-30f});
+  };
+  return std::max({error(a.pdf, b.pdf), error(a.f_cos.x, b.f_cos.x), error(a.f_cos.y, b.f_cos.y),
+                   error(a.f_cos.z, b.f_cos.z)});
+}
+/// What a change of wi by the last digits of a float makes of its value.
+float digits_error(const TestedBsdf& bsdf, vec3 wo, vec3 wi, TransportMode mode, const BsdfEval& e) {
+  float most = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float step : {-1.2e-7f, 1.2e-7f}) {
+      vec3 moved = wi;
+      moved[axis] += step;
+      most = std::max(most, relative_error(bsdf.eval_pdf(wo, moved, mode), e));
+    }
+  return most;
+}
+
 /// Its sides, as the flags say.
 std::vector<bool> sides(const TestedBsdf& bsdf) {
   std::vector<bool> transmitted;
@@ -61,8 +117,7 @@ std::vector<vec3> contract_directions() {
 void expect_samples_agree(const TestedBsdf& bsdf) {
   SCOPED_TRACE(bsdf.name + "; " + seed_note());
   Random random;
-  // The last digits of wi move a narrow lobe's values.
-  const auto tolerance = static_cast<float>(1e-4 + 1e-4 / bsdf.width);
+  constexpr float tolerance = 2e-4f;
   const float edges[] = {0, 0x1p-24f, 0.5f, kOneMinusEpsilon};
   for (const TransportMode mode : {TransportMode::radiance, TransportMode::importance}) {
     for (const vec3 wo : contract_directions()) {
@@ -80,9 +135,11 @@ void expect_samples_agree(const TestedBsdf& bsdf) {
         ASSERT_TRUE(has_any(bsdf.flags, transmitted ? BsdfFlags::transmission : BsdfFlags::reflection));
         if (s->delta) return;
         const BsdfEval e = bsdf.eval_pdf(wo, s->wi, mode);
-        ASSERT_NEAR(s->pdf / e.pdf, 1, tolerance) << "wo.z " << wo.z << " wi.z " << s->wi.z;
-        for (int c = 0; c < 3; ++c)
-          ASSERT_NEAR(s->weight[c] * s->pdf, e.f_cos[c], tolerance * e.f_cos[c] + 1e-30f) << "wo.z " << wo.z;
+        const BsdfEval sampled{s->weight * s->pdf, s->pdf};
+        const float error = relative_error(sampled, e);
+        const float allowed = error > tolerance ? 8 * digits_error(bsdf, wo, s->wi, mode, e) : 0;
+        ASSERT_LE(error, tolerance + allowed)
+            << "wo.z " << wo.z << " wi.z " << s->wi.z << " pdf " << s->pdf << " for " << e.pdf;
       };
       for (int i = 0; i < 200 && !testing::Test::HasFatalFailure(); ++i) check(random.three());
       for (float x : edges)
@@ -141,14 +198,11 @@ void expect_reciprocal(const TestedBsdf& bsdf, int pairs, float tolerance) {
     vec3 wi = random.direction();
     if (!has_any(bsdf.flags, BsdfFlags::transmission)) wi = to_side_of(wo, wi);
     if (std::min(std::abs(wo.z), std::abs(wi.z)) < 1e-3f) continue;
-    vec3 forwards = bsdf.eval_pdf(wo, wi, TransportMode::radiance).f_cos / std::abs(wi.z);
-    vec3 backwards = bsdf.eval_pdf(wi, wo, TransportMode::radiance).f_cos / std::abs(wo.z);
-    if (wo.z * wi.z < 0) (wo.z > 0 ? forwards : backwards) *= sqr(bsdf.ior);
-    for (int c = 0; c < 3; ++c) {
-      const float difference =
-          std::abs(forwards[c] - backwards[c]) / std::max({forwards[c], backwards[c], 1.0f});
-      if (difference > worst) worst = difference, worst_wo = wo, worst_wi = wi;
-    }
+    const float error = reciprocity_error(bsdf, wo, wi);
+    // Near a narrow peak or total reflection the last digits of directions count: what they change is
+    // allowed.
+    const float allowed = error > tolerance ? 4 * digits_error(bsdf, wo, wi) : 0;
+    if (error - allowed > worst) worst = error - allowed, worst_wo = wo, worst_wi = wi;
   }
   EXPECT_LE(worst, tolerance) << worst_wo.x << ' ' << worst_wo.y << ' ' << worst_wo.z << " to " << worst_wi.x
                               << ' ' << worst_wi.y << ' ' << worst_wi.z;

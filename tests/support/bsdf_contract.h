@@ -51,7 +51,8 @@ void expect_samples_agree(const TestedBsdf& bsdf);
 /// significance of 0.01 over `cases` in all.
 void expect_directions_follow_pdf(const TestedBsdf& bsdf, vec3 wo, int cases, std::size_t draws = 60000);
 /// f(wo, wi) = f(wi, wo) over random pairs; of pairs on two sides f(wo, wi) / eta_o^2 in radiance mode, see
-/// Veach 1997, eq. 5.14. Error relative to the value, or to 1/sr where it is less.
+/// Veach 1997, eq. 5.14. Error relative to the value, or to 1/sr where it is less, beyond what the
+/// directions' last digits explain.
 void expect_reciprocal(const TestedBsdf& bsdf, int pairs = 20000, float tolerance = 1e-5f);
 /// All that leaves for light from wo, in importance mode: by quadrature, without delta lobes. Each channel.
 vec3 albedo_by_quadrature(const TestedBsdf& bsdf, vec3 wo);
