@@ -1,6 +1,7 @@
 #include "bsdf/coat_albedo.h"
 
 #include "bsdf/fresnel.h"
+#include "bsdf/visible_normals.h"
 
 namespace candela {
 
@@ -41,23 +42,20 @@ constexpr float kMinRoot = 0.0316227766f; // of Microfacets::kMinAlpha
 float alpha_coordinate(float alpha) { return (std::sqrt(alpha) - kMinRoot) / (1 - kMinRoot); }
 float alpha_at(float coordinate) { return sqr(kMinRoot + coordinate * (1 - kMinRoot)); }
 
-/// For each eta, over visible normals on a golden-ratio lattice.
+/// For each eta.
 std::array<float, kEtas> reflected_shares(const Microfacets& facets, float cosine) {
   const int count = facets.distribution == MicrofacetDistribution::ggx ? 4096 : 2048;
   const float mu = std::clamp(cosine, 1e-4f, 1.0f);
   const vec3 w(safe_sqrt(1 - sqr(mu)), 0, mu);
   std::array<double, kEtas> sum{};
-  for (int i = 0; i < count; ++i) {
-    const double x = (i + 0.5) / count, y = i * 0.61803398874989485;
-    const vec2 u(static_cast<float>(x), static_cast<float>(y - std::floor(y)));
-    const vec3 h = facets.sample_visible_normal(w, sample_uniform_disc(u));
+  for_visible_normals(facets, w, count, [&](vec3 h) {
     const float cos_h = std::clamp(glm::dot(w, h), 0.0f, 1.0f);
     const vec3 wi = 2 * cos_h * h - w;
-    if (!(wi.z > 0)) continue;
+    if (!(wi.z > 0)) return;
     const float seen = facets.g2_reflection(w, wi) / facets.g1(w);
     for (std::size_t k = 0; k < kEtas; ++k)
       sum[k] += static_cast<double>(seen * fresnel_dielectric(cos_h, eta_at(grid_point(k, kEtas))));
-  }
+  });
   std::array<float, kEtas> shares;
   for (std::size_t k = 0; k < kEtas; ++k) shares[k] = static_cast<float>(sum[k] / count);
   return shares;

@@ -1,6 +1,7 @@
 #include "bsdf/facet_albedo.h"
 
 #include "bsdf/fresnel.h"
+#include "bsdf/visible_normals.h"
 
 namespace candela {
 
@@ -15,15 +16,11 @@ vec3 direction(float cosine, float azimuth) {
   return {sine * std::cos(azimuth), sine * std::sin(azimuth), mu};
 }
 
-/// The mean of value(h) over visible normals: by a golden-ratio lattice of points.
+/// The mean of value(h) over visible normals.
 template <class Value>
 float mean_over_visible_normals(const Microfacets& facets, vec3 w, int count, Value value) {
   double sum = 0;
-  for (int i = 0; i < count; ++i) {
-    const double x = (i + 0.5) / count, y = i * 0.61803398874989485;
-    const vec2 u(static_cast<float>(x), static_cast<float>(y - std::floor(y)));
-    sum += static_cast<double>(value(facets.sample_visible_normal(w, sample_uniform_disc(u))));
-  }
+  for_visible_normals(facets, w, count, [&](vec3 h) { sum += static_cast<double>(value(h)); });
   return static_cast<float>(sum / count);
 }
 

@@ -2,6 +2,7 @@
 
 #include "bsdf/facet_albedo.h"
 #include "bsdf/fresnel.h"
+#include "bsdf/visible_normals.h"
 
 namespace candela {
 
@@ -23,21 +24,18 @@ float alpha_coordinate(float alpha) {
 }
 
 /// The mean of value(cosine) over visible normals, each weighted by the share of its light that leaves the
-/// surface if nothing is absorbed: by a golden-ratio lattice.
+/// surface if nothing is absorbed.
 template <class Value>
 float mean_over_reflected(const Microfacets& facets, vec3 w, int count, Value value) {
   double sum = 0, weights = 0;
-  for (int i = 0; i < count; ++i) {
-    const double x = (i + 0.5) / count, y = i * 0.61803398874989485;
-    const vec2 u(static_cast<float>(x), static_cast<float>(y - std::floor(y)));
-    const vec3 h = facets.sample_visible_normal(w, sample_uniform_disc(u));
+  for_visible_normals(facets, w, count, [&](vec3 h) {
     const float cosine = std::clamp(glm::dot(w, h), 0.0f, 1.0f);
     const vec3 wi = 2 * cosine * h - w;
-    if (!(wi.z > 0)) continue;
+    if (!(wi.z > 0)) return;
     const auto weight = static_cast<double>(facets.g2_reflection(w, wi));
     sum += weight * static_cast<double>(value(cosine));
     weights += weight;
-  }
+  });
   return weights > 0 ? static_cast<float>(sum / weights) : 0;
 }
 

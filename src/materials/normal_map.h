@@ -51,27 +51,4 @@ inline vec3 bumped_normal(vec3 normal, vec3 geometric, vec3 dpdu, vec3 dpdv, vec
   return kept_above(glm::normalize(normal - slope), geometric);
 }
 
-/// `normal`, tilted towards the geometric one as far as it takes for the mirror direction of wo to leave the
-/// surface: it would be black there. wo is on either side. (The idea is of Cycles' ensure_valid_reflection;
-/// Schuessler, Heitz, Hanika & Dachsbacher 2017, "Microfacet-based Normal Mapping for Robust Monte Carlo Path
-/// Tracing", has what it is about.) The normal then depends on wo, so that scattering is not reciprocal.
-///
-/// With the geometric normal as z, x to the side of `normal`, and a normal at angle a between them, the
-/// mirror direction has z = wo.x sin(2a) + wo.z cos(2a), which falls to the least that is allowed at
-///     2a = atan2(wo.x, wo.z) + acos(least / hypot(wo.x, wo.z)).
-inline vec3 tilted_to_reflect(vec3 normal, vec3 geometric, vec3 wo) {
-  float up = glm::dot(wo, geometric);
-  if (up < 0) wo = -wo, up = -up; // both sides are alike
-  const float least = std::min(0.9f * up, 0.01f);
-  if (2 * glm::dot(wo, normal) * glm::dot(normal, geometric) - up >= least) return normal;
-  const vec3 aside = normal - glm::dot(normal, geometric) * geometric;
-  const float length2 = length_squared(aside);
-  if (!(length2 > 0)) return normal;
-  const vec3 x = aside / std::sqrt(length2);
-  const float along = glm::dot(wo, x), length = std::sqrt(sqr(along) + sqr(up));
-  if (!(length > 0)) return geometric;
-  const float a = 0.5f * (std::atan2(along, up) + std::acos(std::min(least / length, 1.0f)));
-  return glm::normalize(std::sin(a) * x + std::cos(a) * geometric);
-}
-
 } // namespace candela

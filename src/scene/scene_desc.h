@@ -18,7 +18,7 @@
 namespace candela {
 
 enum class Projection : int { perspective, orthographic, spherical };
-/// What a perspective camera looks through: a thin lens, or one of render/camera/lenses.h.
+/// The lens of a perspective camera: a thin one, or one of render/camera/lenses.h.
 enum class Lens : int { thin, double_gauss, wide_angle, telephoto, fisheye };
 
 /// A pinhole, or a thin lens when aperture_radius > 0.

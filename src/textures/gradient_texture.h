@@ -7,7 +7,7 @@ namespace candela {
 enum class GradientShape : int { linear, radial, angular };
 
 /// From color_a to color_b: with u from 0 to 1, with the distance from (1/2, 1/2) up to 1/2, or with the
-/// angle about it, counter-clockwise from the right. The use's wrap says how it goes on.
+/// angle about it, counter-clockwise from the right. It continues as the wrap of its use says.
 struct GradientTexture : TwoColors<GradientTexture> {
   static constexpr std::string_view kName = "gradient";
   static constexpr std::string_view kShapes[] = {"linear", "radial", "angular"};

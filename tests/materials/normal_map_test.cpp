@@ -179,36 +179,5 @@ TEST(NormalMap, OddInputs) {
     EXPECT_GT(mapped_normal(basis, z, rgb).z, 0);
 }
 
-TEST(NormalMap, MirrorDirectionsLeaveTheSurface) {
-  SCOPED_TRACE(seed_note());
-  Random random(6);
-  int tilted = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const vec3 geometric = random.direction(), wo = random.direction();
-    const vec3 normal = kept_above(random.direction(), geometric);
-    const vec3 n = tilted_to_reflect(normal, geometric, wo);
-    const vec3 mirrored = 2 * glm::dot(wo, n) * n - wo;
-    const float side = glm::dot(wo, geometric) < 0 ? -1.0f : 1.0f;
-    const float up = side * glm::dot(wo, geometric), least = std::min(0.9f * up, 0.01f);
-    EXPECT_GE(side * glm::dot(mirrored, geometric), least - 2e-6f);
-    EXPECT_GT(glm::dot(n, geometric), 0);
-    EXPECT_GE(side * glm::dot(n, wo), -1e-6f);
-    EXPECT_NEAR(glm::length(n), 1, 1e-5);
-    const vec3 before = 2 * glm::dot(wo, normal) * normal - wo;
-    if (side * glm::dot(before, geometric) >= least) {
-      EXPECT_EQ(n, normal); // nothing to do
-      continue;
-    }
-    ++tilted;
-    // No farther than needed, in the plane of both normals, between them.
-    EXPECT_NEAR(side * glm::dot(mirrored, geometric), least, 2e-5);
-    const vec3 across = glm::cross(geometric, normal);
-    EXPECT_NEAR(glm::dot(n, across), 0, 1e-5);
-    EXPECT_GE(glm::dot(n, geometric), glm::dot(normal, geometric) - 1e-5f);
-    EXPECT_GE(glm::dot(glm::cross(geometric, n), across), -1e-6f);
-  }
-  EXPECT_GT(tilted, 1000);
-}
-
 } // namespace
 } // namespace candela::test

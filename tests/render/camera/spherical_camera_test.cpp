@@ -35,7 +35,7 @@ TEST(SphericalCamera, KnowsForwardRightAndUp) {
   expect_direction({33, 0}, view.up());
   expect_direction({7, 40}, -view.up());
   expect_direction({40, 10}, glm::normalize(view.forward() + view.up()));
-  // Beyond the edges it goes on.
+  // It continues beyond the edges.
   EXPECT_LT(glm::length(direction(camera, {-5, 12}) - direction(camera, {75, 12})), 1e-5f);
   EXPECT_LT(glm::length(direction(camera, {10, -3}) - direction(camera, {50, 3})), 1e-5f);
 }
