@@ -202,18 +202,24 @@ void PathTracer::make_vertices(std::size_t begin, std::size_t count, int depth) 
   scattering_flags_ = BsdfFlags::none;
   shading_points_.count = 0;
   shading_points_.coherent = depth == 1;
+  const bool depends_on_context = scene_.all_lights().depends_on_context();
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!vertices_.scatters(i)) continue;
     Path& path = *arrived_[begin + i];
     const Bsdf& bsdf = vertices_.bsdf(i);
     const BsdfFlags flags = bsdf_flags(bsdf);
-    const bool specular = bsdf_delta_probability(bsdf, vertices_.wo_local[i]) >= 1;
+    const bool specular =
+        has_any(flags, BsdfFlags::delta) && bsdf_delta_probability(bsdf, vertices_.wo_local[i]) >= 1;
     const int branches = path.split || specular ? 1 : settings_.split;
     path.split |= !specular;
     scattering_flags_ |= flags;
     scattering_.push_back({&path, i, branches});
     if (specular) continue; // no light sample meets a delta lobe
-    set_light_context(i, bsdf, flags);
+    LightSamplingContext& context = vertices_.light_context[i];
+    if (transmits_with_density(flags)) context.domain = ScatteringDomain::sphere;
+    context.mis_with_bsdf = settings_.light_sampling == LightSampling::mis;
+    context.lobe = {};
+    if (depends_on_context && !is_diffuse(flags)) set_lobe(i, bsdf);
     shading_points_.lane[shading_points_.count++] = i;
     shading_points_.sampler[i] = &path.sampler;
     shading_points_.bsdf_samples[i] = branches;
@@ -221,12 +227,9 @@ void PathTracer::make_vertices(std::size_t begin, std::size_t count, int depth) 
   }
 }
 
-void PathTracer::set_light_context(std::size_t i, const Bsdf& bsdf, BsdfFlags flags) {
+/// Of a BSDF that is more than diffuse, for the choice of lights.
+void PathTracer::set_lobe(std::size_t i, const Bsdf& bsdf) {
   LightSamplingContext& context = vertices_.light_context[i];
-  if (transmits_with_density(flags)) context.domain = ScatteringDomain::sphere;
-  context.mis_with_bsdf = settings_.light_sampling == LightSampling::mis;
-  context.lobe = {};
-  if (!scene_.all_lights().depends_on_context() || is_diffuse(flags)) return;
   const vec3 wo = vertices_.wo_local[i];
   context.lobe = bsdf_lobe_proxy(bsdf, wo);
   context.lobe_axis = Basis::from_normal(vertices_.normal[i]).to_world(reflect_about_normal(wo));
@@ -246,7 +249,7 @@ void PathTracer::sample_lights(std::size_t begin, int depth, StopPoll& stop) {
 bool PathTracer::sample_bsdfs(std::uint32_t branch, int depth) {
   Lanes<const ScatteringVertex*> from;
   Lanes<Sampler::Draw> draws;
-  std::size_t count = 0, sampled = 0;
+  std::size_t count = 0;
   branched_.clear();
   for (const ScatteringVertex& vertex : scattering_) {
     const auto branches = static_cast<std::uint32_t>(vertex.branches);
@@ -265,20 +268,31 @@ bool PathTracer::sample_bsdfs(std::uint32_t branch, int depth) {
   Sampler::get_1d(all, Dimension::russian_roulette, roulette_u);
   sample_uniform_discs({disc.data(), count});
 
-  for (std::size_t k = 0; k < count; ++k) {
-    const ScatteringVertex& vertex = *from[k];
-    const std::uint32_t i = vertex.lane;
-    auto s = sample_direction(vertices_.bsdf(i), vertices_.wo_local[i], {disc[k], lobe_u[k]},
-                              settings_.direction_sampling);
-    if (!s) continue;
-    const auto branches = static_cast<float>(vertex.branches);
-    directions_[sampled++] = {&vertex, draws[k].sampler, i, s->pdf * branches, s->delta};
-    continuation_.wi_local.set(i, s->wi);
-    continuation_.throughput.set(i, vertex.path->throughput / branches * s->weight);
-    continuation_.eta_scale[i] = vertex.path->eta_scale * branches * sqr(s->eta);
-    continuation_.u[i] = roulette_u[k];
-  }
-  direction_count_ = sampled;
+  Lanes<const Bsdf*> bsdfs;
+  for (std::size_t k = 0; k < count; ++k) bsdfs[k] = &vertices_.bsdf(from[k]->lane);
+  sample_directions(
+      {bsdfs.data(), count}, settings_.direction_sampling,
+      [&](std::size_t k) { return vertices_.wo_local[from[k]->lane]; },
+      [&](std::size_t k) { return BsdfU(disc[k], lobe_u[k]); },
+      [&](std::size_t k, const std::optional<BsdfSample>& s) {
+        const ScatteringVertex& vertex = *from[k];
+        const std::uint32_t i = vertex.lane;
+        const auto branches = static_cast<float>(vertex.branches);
+        directions_[k] = {&vertex, draws[k].sampler, i, 0, false};
+        continuation_.u[i] = roulette_u[k];
+        if (!s) {
+          continuation_.throughput.set(i, Spectrum(0)); // ends by Russian roulette
+          return;
+        }
+        directions_[k].bsdf_pdf = s->pdf * branches;
+        directions_[k].delta = s->delta;
+        continuation_.wi_local.set(i, s->wi);
+        Spectrum throughput = vertex.path->throughput;
+        if (vertex.branches != 1) throughput /= branches;
+        continuation_.throughput.set(i, throughput * s->weight);
+        continuation_.eta_scale[i] = vertex.path->eta_scale * branches * sqr(s->eta);
+      });
+  direction_count_ = count;
   continuation_.folds.fill(0);
   if (!is_diffuse(scattering_flags_)) fold_directions();
   continuation_.compute(vertices_, Roulette::at(settings_, depth));

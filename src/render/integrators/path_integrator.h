@@ -97,7 +97,7 @@ private:
   bool passes_media() const { return scene_.has_transparency() || scene_.has_media(); }
   bool pass_media(std::size_t path, bool met, Hit& hit);
   void divide(Path& path, bool arrives) { (arrives ? arrived_ : escaped_).push_back(&path); }
-  void set_light_context(std::size_t lane, const Bsdf& bsdf, BsdfFlags flags);
+  void set_lobe(std::size_t lane, const Bsdf& bsdf);
   /// Null in scenes that do not filter textures.
   const ConeOfRay* cone_of(const Path& path) const {
     return scene_.filters_textures() ? &cones_[static_cast<std::size_t>(&path - paths_.data())] : nullptr;

@@ -70,8 +70,7 @@ void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays
     wo.set(i, -rays[i]->direction);
     material[i] = &scene.material(geometry.material_of(hit));
     any_oriented |= material[i]->oriented;
-    if (hit.kind != PrimitiveKind::triangle || hit.instance != kNoInstance ||
-        material[i]->textured != nullptr || material[i]->has_relief()) {
+    if (hit.kind != PrimitiveKind::triangle || hit.instance != kNoInstance || material[i]->is_textured) {
       others[other_count++] = i;
       triangles.clear(i);
       continue;

@@ -2,7 +2,7 @@
 // Hits of many rays made ready for scattering, side by side: what Vertex is of one.
 
 #include "core/lanes.h"
-#include "materials/direction_sampling.h"
+#include "materials/bsdf_lanes.h"
 #include "render/integrators/transport.h"
 
 #include <span>

@@ -73,6 +73,7 @@ void SurfaceMaterials::add(const Material& material,
   // Of one with textures nobody knows before the hit.
   out.oriented = out.textured != nullptr ? has_tangent(out.bsdf) : is_anisotropic(out.bsdf);
   out.varies |= out.oriented;
+  out.is_textured = out.textured != nullptr || out.has_relief();
   out.opacity = material.opacity.value;
   out.emission = material.emission.value;
   out.emissive = !is_black(material.emission.value) ||

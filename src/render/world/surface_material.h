@@ -55,11 +55,11 @@ struct TexturedModel {
 struct SurfaceMaterial {
   Bsdf bsdf;                               ///< where `textured` is null
   const TexturedModel* textured = nullptr; ///< evaluate_bsdf() knows the BSDF then
-  bool varies =
-      false; ///< whether the BSDF depends on the hit: is textured, oriented, or on what lies outside
-  bool oriented = false;                               ///< whether orient_bsdf() has something to do
-  const TexturedParameter* emission_texture = nullptr; ///< emission_at() knows it then
-  const TexturedParameter* opacity_texture = nullptr;  ///< opacity_at(), likewise
+  bool varies = false;      ///< whether the BSDF depends on the hit: textured, oriented, by what lies outside
+  bool is_textured = false; ///< whether hits look at textures for the BSDF or the shading normal
+  bool oriented = false;    ///< whether orient_bsdf() has something to do
+  const TexturedParameter* emission_texture = nullptr;                        ///< emission_at() knows it then
+  const TexturedParameter* opacity_texture = nullptr;                         ///< opacity_at(), likewise
   const TexturedParameter *normal_texture = nullptr, *bump_texture = nullptr; ///< for relief_normal()
   Spectrum emission{0};                                                       ///< W/(m^2 sr)
   float opacity = 1;
