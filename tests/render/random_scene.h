@@ -1,0 +1,227 @@
+#pragma once
+// Scenes of random materials, textures, lights, shapes, cameras and settings: whatever the rows allow.
+
+#include "render/render_testing.h"
+#include "support/textures.h"
+
+#include <random>
+
+namespace candela::test {
+
+namespace detail {
+
+class SceneGenerator {
+public:
+  explicit SceneGenerator(std::uint64_t seed) : random_(seed) {}
+
+  Document make() {
+    const int textures = pick(4);
+    for (int i = 0; i < textures; ++i) scene().textures.push_back(texture());
+    const int materials = 1 + pick(4);
+    for (int i = 0; i < materials; ++i) s_.material(material());
+    const int shapes = 1 + pick(6);
+    for (int i = 0; i < shapes; ++i) add_shape();
+    const int lights = pick(4);
+    for (int i = 0; i < lights; ++i) scene().lights.push_back(light());
+    camera();
+    settings();
+    return std::move(s_.document);
+  }
+
+private:
+  SceneDesc& scene() { return s_.document.scene; }
+
+  float number(float lo, float hi) { return std::uniform_real_distribution<float>(lo, hi)(random_); }
+  int pick(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_); }
+  bool one_in(int n) { return pick(n) == 0; }
+  vec3 point(float extent) {
+    const float x = number(-extent, extent), y = number(-extent, extent);
+    return {x, y, number(-extent, extent)};
+  }
+  vec3 direction() { return glm::normalize(point(1) + vec3(1e-3f)); }
+
+  /// Somewhere in the row's range: wide ranges by orders of magnitude, and one in eight at an end. Where
+  /// there is no end, not far from 0: values whose product overflows are no fault of the renderer.
+  float value_of(const FieldInfo& row) {
+    constexpr double kFar = 1e4;
+    const double low = std::max(row.minimum, -kFar), high = std::min(row.maximum, kFar);
+    const double span = high - low;
+    if (!row.above_minimum && one_in(16)) return static_cast<float>(low);
+    if (one_in(16)) return static_cast<float>(high);
+    const auto u = static_cast<double>(number(0, 1));
+    double value = low + u * span;
+    if (span > 100)
+      value = std::clamp(std::pow(10.0, 6 * u - 3) * (low < 0 && one_in(2) ? -1 : 1), low, high);
+    if (row.above_minimum) value = std::max(value, low + 1e-3 * span);
+    return static_cast<float>(value);
+  }
+
+  /// The value at `address`, which the row describes.
+  void randomise(const FieldInfo& row, void* address) {
+    switch (row.type) {
+    case FieldType::boolean: *static_cast<bool*>(address) = one_in(2); break;
+    case FieldType::integer: {
+      const double low = std::max(row.minimum, -100.0), high = std::min(row.maximum, 100.0);
+      *static_cast<int*>(address) = static_cast<int>(low) + pick(static_cast<int>(high - low) + 1);
+      break;
+    }
+    case FieldType::choice: *static_cast<int*>(address) = pick(static_cast<int>(row.choices.size())); break;
+    case FieldType::real: *static_cast<float*>(address) = value_of(row); break;
+    case FieldType::angle: *static_cast<float*>(address) = radians(value_of(row)); break;
+    case FieldType::point: *static_cast<vec3*>(address) = one_in(4) ? direction() : point(3); break;
+    case FieldType::color: {
+      vec3& color = *static_cast<vec3*>(address);
+      const FieldInfo within = limited_color(row);
+      if (one_in(3)) {
+        color = vec3(value_of(within));
+      } else {
+        for (int c = 0; c < 3; ++c) color[c] = value_of(within);
+      }
+      break;
+    }
+    }
+  }
+  static FieldInfo limited_color(FieldInfo row) {
+    row.maximum = std::min(row.maximum, 100.0);
+    return row;
+  }
+
+  std::shared_ptr<const Texture> texture() {
+    const auto names = texture_kind_names();
+    const int kind = pick(static_cast<int>(names.size()));
+    auto model = texture_of_kind(names[static_cast<std::size_t>(kind)]);
+    if (!model || std::holds_alternative<ImageTexture>(*model)) {
+      const int width = 1 + pick(5), height = 1 + pick(5), channels = std::array{1, 3, 4}[pick(3)];
+      std::vector<std::uint8_t> values;
+      for (int i = 0; i < width * height * channels; ++i)
+        values.push_back(static_cast<std::uint8_t>(one_in(4) ? 255 * pick(2) : pick(256)));
+      return picture_texture(width, height, std::move(values), channels);
+    }
+    auto made = std::make_shared<Texture>(Texture{"", *model});
+    std::visit(
+        [&](auto& kind_of) {
+          for (const auto& row : std::decay_t<decltype(kind_of)>::rows())
+            randomise(row, row.address(kind_of));
+        },
+        made->model);
+    return made;
+  }
+
+  void use_texture(const ParameterRef& parameter) {
+    TextureUse& use = parameter.use();
+    for (const Field<TextureUse>& row : texture_use_fields()) randomise(row, row.address(use));
+    use.texture = pick(static_cast<int>(scene().textures.size()));
+  }
+
+  Material material() {
+    for (;;) {
+      Material m = default_material(pick(kMaterialTypeCount));
+      for (const MaterialField& row : material_fields(m)) {
+        const ParameterRef parameter = row.parameter != nullptr ? row.parameter(m) : ParameterRef{};
+        if (!one_in(3)) randomise(row, parameter ? parameter.value() : row.address(m));
+        if (parameter && !scene().textures.empty() && one_in(5)) use_texture(parameter);
+      }
+      if (!one_in(4)) m.opacity = 1.0f;
+      if (!one_in(3)) m.emission = vec3(0);
+      if (material_problem(m, scene().textures.size()).empty()) return m;
+    }
+  }
+
+  LightDesc light() {
+    for (;;) {
+      LightDesc l = default_light(pick(kLightTypeCount));
+      for (const Field<LightDesc>& row : light_fields(l)) randomise(row, row.address(l));
+      if (light_problem(l).empty()) return l;
+    }
+  }
+
+  Mesh mesh() {
+    if (one_in(2))
+      return sphere_mesh(static_cast<unsigned>(2 + pick(5)), static_cast<unsigned>(3 + pick(8)), one_in(2));
+    Mesh m;
+    const int vertices = 3 + pick(12), triangles = 1 + pick(12);
+    const bool uvs = one_in(2), normals = one_in(2);
+    for (int i = 0; i < vertices; ++i) {
+      m.positions.push_back(one_in(6) && i > 0 ? m.positions.back() : point(1));
+      if (uvs) m.uvs.emplace_back(one_in(3) ? vec2(0) : vec2(point(2)));
+      if (normals) m.normals.push_back(one_in(5) ? vec3(0) : direction());
+    }
+    auto corner = [&] { return static_cast<unsigned>(pick(vertices)); };
+    for (int i = 0; i < triangles; ++i) { // corners may coincide
+      const unsigned a = corner(), b = corner();
+      m.triangles.emplace_back(a, b, corner());
+    }
+    return m;
+  }
+
+  mat4 transform() {
+    mat4 m = glm::translate(mat4(1), point(one_in(10) ? 1e5f : 1.5f));
+    m = glm::rotate(m, number(0, 6), direction());
+    const float size = one_in(8) ? std::pow(10.0f, number(-5, 3)) : number(0.2f, 1.5f);
+    const vec3 flat = one_in(8) ? vec3(1, 1, std::pow(10.0f, number(-6, 0))) : vec3(1);
+    return glm::scale(m, size * flat * (one_in(6) ? vec3(-1, 1, 1) : vec3(1)));
+  }
+
+  void add_shape() {
+    const int material = pick(static_cast<int>(scene().materials.size()));
+    const auto names = shape_names();
+    std::optional<Shape> shape =
+        shape_of_name(names[static_cast<std::size_t>(pick(static_cast<int>(names.size())))]);
+    if (!shape) shape = std::make_shared<const Mesh>(mesh());
+    for (const Field<Shape>& row : shape_fields(*shape)) {
+      Shape changed = *shape;
+      randomise(row, row.address(changed));
+      if (shape_problem(changed).empty()) shape = changed;
+    }
+    scene().instances.push_back({"", *shape, transform(), {material}});
+  }
+
+  void camera() {
+    Camera& c = scene().camera;
+    do {
+      c = Camera{};
+      c.position = point(4);
+      c.target = one_in(6) ? c.position + direction() * std::pow(10.0f, number(-3, 4)) : point(1);
+      c.up = direction();
+      c.vertical_fov = radians(number(1, 170));
+      c.projection = static_cast<Projection>(pick(3));
+      if (one_in(2)) c.aperture_radius = number(0, 1);
+      if (one_in(3)) c.focus_distance = std::pow(10.0f, number(-3, 3));
+      c.blades = pick(9);
+      // The pupils of a lens take a while to find: few scenes have one.
+      if (one_in(40)) c.lens = static_cast<Lens>(1 + pick(4));
+    } while (!camera_value_problem(c).empty());
+  }
+
+  void settings() {
+    const RenderSettings standard = s_.document.settings;
+    for (const Field<Document>& row : settings_table()) {
+      const bool chosen = row.key.starts_with("path.") || row.key.starts_with("sampler.") ||
+                          row.key.starts_with("ao.") || row.key == "integrator" || row.key == "film.filter";
+      if (!chosen || one_in(2)) continue;
+      randomise(row, row.address(s_.document));
+    }
+    PathSettings& path = s_.document.settings.path;
+    path.light_samples = std::min(path.light_samples, 4);
+    path.split = std::min(path.split, 4);
+    path.only_depth = std::min(path.only_depth, 4);
+    if (one_in(10)) {
+      OverrideSettings& by = s_.document.settings.override_brdf;
+      by.brdf = 1 + pick(kMaterialTypeCount);
+      for (const Field<MaterialChoice>& row : material_choice_fields())
+        randomise(row, row.address(by.values));
+    }
+    if (!document_problem(s_.document).empty()) s_.document.settings = standard;
+  }
+
+  std::mt19937_64 random_;
+  SceneMaker s_{8, 6, 2};
+};
+
+} // namespace detail
+
+/// Valid, of a few pixels and samples, and always the same of the same seed. Values lie anywhere in their
+/// rows, now and then at an end; meshes have degenerate triangles, transforms may flatten.
+inline Document random_scene(std::uint64_t seed) { return detail::SceneGenerator(seed).make(); }
+
+} // namespace candela::test
