@@ -25,6 +25,9 @@ constexpr LessonInfo kLessons[] = {
     {"brdf", "Lobes of a material",
      "Turn the view towards grazing: the lobe stretches, and the albedo must not exceed 1. Directions by "
      "the material follow the lobe, others waste samples on directions that reflect little."},
+    {"lens", "Lenses of many elements",
+     "Open the stop: the film's corners darken faster than cos^4, and the spot of a point in focus, which a "
+     "thin lens draws sharp, keeps the size of the aberrations. Stop down: the two agree."},
 };
 
 } // namespace

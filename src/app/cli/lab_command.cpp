@@ -174,6 +174,13 @@ struct LabCommand::Options {
     print(report(lesson, material));
   }
 
+  void lens() const {
+    LensLesson lesson(read<LensOptions>("lens", lens_fields()), source("lens"),
+                      static_cast<std::uint64_t>(run_options("lens", {100000, 1}).samples));
+    run_to_end(lesson);
+    print(report(lesson));
+  }
+
   struct PixelOptions {
     int x = 0, y = 0;
     uvec2 pixel() const { return {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)}; }
@@ -217,6 +224,8 @@ LabCommand::LabCommand(CLI::App& program) : options_(std::make_unique<Options>()
     }
     if (info.name == "warps")
       for (const auto& row : warp_fields()) add(row, option_name(row.key));
+    if (info.name == "lens")
+      for (const auto& row : lens_fields()) add(row, option_name(row.key));
     if (info.name == "brdf") {
       for (const auto& row : brdf_fields()) add(row, option_name(row.key));
       for (const auto& row : scattering_rows()) add(row, material_option(row));
@@ -249,6 +258,8 @@ int LabCommand::run() const {
     o.warps();
   else if (o.asks_for("brdf"))
     o.brdf();
+  else if (o.asks_for("lens"))
+    o.lens();
   else
     throw unknown_lesson(left);
   return 0;

@@ -195,6 +195,43 @@ LabReport report(const BrdfLesson& lesson, const MaterialChoice& material) {
   return out.done();
 }
 
+LabReport report(const LensLesson& lesson) {
+  Writer out("lens");
+  out.fields(lens_fields(), lesson.options());
+  out.source(lesson.source());
+  out.line("samples", fmt::format("{}, {:.1f} % passed", lesson.done(), 100 * lesson.passing()));
+  const LensSystem& lens = lesson.lens();
+  out.line("focal length", fmt::format("{:.3f} mm", lens.focal_length()));
+  out.line("f-number", fmt::format("{:.3f}, wide open {:.3f}", lens.f_number(), lens.widest_f_number()));
+  out.line("film distance", fmt::format("{:.3f} mm", lens.film_distance()));
+  out.line("light", fmt::format("{:.5f} at the film point", lesson.illumination()));
+  out.line("standard error", fmt::format("{:.1g}", lesson.illumination_error()));
+  out.json("samples") = lesson.done();
+  out.json("passing") = lesson.passing();
+  out.json("focal_length") = lens.focal_length();
+  out.json("f_number") = lens.f_number();
+  out.json("film_distance") = lens.film_distance();
+  out.json("illumination") = lesson.illumination();
+  out.json("standard_error") = lesson.illumination_error();
+  for (const auto& [key, plot] :
+       {std::pair{"blur", lesson.blur_plot()}, {"vignetting", lesson.vignetting_plot()}}) {
+    auto& curves = out.json(key);
+    out.text(fmt::format("\n{}\n{:>14}", plot.title, plot.x.label));
+    for (const PlotSeries& series : plot.series) out.text(fmt::format(" {:>14}", series.label));
+    out.text("\n");
+    const std::size_t count = plot.series.front().points.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      out.text(fmt::format("{:>14.4g}", plot.series.front().points[i].x));
+      for (const PlotSeries& series : plot.series) {
+        out.text(fmt::format(" {:>14.5g}", series.points[i].y));
+        curves[series.label].push_back({series.points[i].x, series.points[i].y});
+      }
+      out.text("\n");
+    }
+  }
+  return out.done();
+}
+
 LabReport report_points(const PointsOptions& options, const SampleSource& source, std::uint32_t count) {
   const std::vector<vec2> points = sampler_points(options, source, 0, count);
   LabReport out;

@@ -1,6 +1,7 @@
 #pragma once
 // The output of `candela lab`, as text and as JSON.
 
+#include "app/lab/lens_lesson.h"
 #include "lab/brdf.h"
 #include "lab/experiments.h"
 #include "lab/points.h"
@@ -20,6 +21,7 @@ LabReport report(const Estimation<SolidAngleExperiment>& lesson);
 LabReport report(const Estimation<IntegralExperiment>& lesson);
 LabReport report(const WarpLesson& lesson);
 LabReport report(const BrdfLesson& lesson, const MaterialChoice& material);
+LabReport report(const LensLesson& lesson);
 
 /// The points; the text is CSV.
 LabReport report_points(const PointsOptions& options, const SampleSource& source, std::uint32_t count);
