@@ -21,9 +21,9 @@ public:
   explicit PictureCopier(const std::string& path)
       : folder_(folder_of(path)), copies_(fs::path(folder_) / (fs::path(path).stem().string() + "_files")) {}
 
-  /// The path by which the scene refers to the picture; empty if the file is missing, so that it is written
-  /// inline.
-  std::string reachable(const std::string& source) {
+  /// The path by which the scene refers to the picture (or another file that is copied as it is); empty if
+  /// the file is missing, so that it is written inline.
+  std::string reachable(const std::string& source, const char* element = "image") {
     if (source.empty() || path_below(folder_, source)) return source;
     if (auto known = done_.find(source); known != done_.end()) return known->second;
     std::error_code failed;
@@ -33,7 +33,7 @@ public:
       to = copies_ / fmt::format("{}-{}{}", name.stem().string(), i, name.extension().string());
     fs::create_directories(copies_, failed);
     if (failed) throw output_error(copies_.string(), failed.message(), "choose another place");
-    write_file_atomically(to.string(), std::span<const std::uint8_t>(read_file_bytes(source, "image")));
+    write_file_atomically(to.string(), std::span<const std::uint8_t>(read_file_bytes(source, element)));
     copied.push_back({source, to.string()});
     return done_[source] = to.string();
   }
@@ -72,6 +72,15 @@ std::vector<ExportedFile> export_candela_json(Document document, const std::stri
     auto moved = std::make_shared<Panorama>(*panorama);
     moved->sources = std::move(sources);
     std::get<EnvironmentLightModel>(light.model).panorama = std::move(moved);
+  }
+  for (Instance& instance : document.scene.instances) {
+    auto* curves = std::get_if<CurvesShape>(&instance.shape);
+    if (curves == nullptr) continue;
+    std::string source = copier.reachable(curves->strands->source, "curves");
+    if (source == curves->strands->source) continue;
+    auto moved = std::make_shared<Strands>(*curves->strands);
+    moved->source = std::move(source);
+    curves->strands = std::move(moved);
   }
   write_candela_json(document, path);
   return std::move(copier.copied);

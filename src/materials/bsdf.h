@@ -137,5 +137,13 @@ inline void set_tangent(Bsdf& bsdf, vec2 tangent) {
       },
       bsdf);
 }
+/// By its member `closure.h`, where it has that: where on a fibre the surface was met (Hair::h).
+inline void set_fibre_offset(Bsdf& bsdf, float h) {
+  visit_variant(
+      [&](auto& model) {
+        if constexpr (requires { model.closure.h; }) model.closure.h = h;
+      },
+      bsdf);
+}
 
 } // namespace candela

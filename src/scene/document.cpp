@@ -24,7 +24,12 @@ bool same_light(const LightDesc& a, const LightDesc& b) {
 bool same_shape(const Shape& a, const Shape& b) {
   const auto* mesh_a = std::get_if<std::shared_ptr<const Mesh>>(&a);
   const auto* mesh_b = std::get_if<std::shared_ptr<const Mesh>>(&b);
-  return mesh_a && mesh_b ? same_value(*mesh_a, *mesh_b) : a == b;
+  if (mesh_a && mesh_b) return same_value(*mesh_a, *mesh_b);
+  const auto *curves_a = std::get_if<CurvesShape>(&a), *curves_b = std::get_if<CurvesShape>(&b);
+  if (!curves_a || !curves_b) return a == b;
+  CurvesShape c = *curves_b;
+  c.strands = curves_a->strands;
+  return same_value(curves_a->strands, curves_b->strands) && *curves_a == c;
 }
 
 Invalidates compare_material(const Material& a, const Material& b) {
@@ -64,9 +69,9 @@ std::string mesh_problem(const Mesh& mesh) {
   return {};
 }
 
-/// `checked` holds the meshes that need no second check: many instances may share one.
+/// `checked` holds the meshes and strands that need no second check: many instances may share one.
 std::string instance_problem(const SceneDesc& scene, const Instance& instance, std::size_t index,
-                             std::set<const Mesh*>& checked) {
+                             std::set<const void*>& checked) {
   std::size_t slots = 1;
   if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
     if (!*mesh) return fmt::format("instances[{}]: has no mesh", index);
@@ -76,6 +81,11 @@ std::string instance_problem(const SceneDesc& scene, const Instance& instance, s
         return fmt::format("instances[{}].mesh: {}", index, problem);
   } else if (auto problem = shape_problem(instance.shape); !problem.empty()) {
     return fmt::format("instances[{}].{}", index, problem);
+  } else if (const auto* curves = std::get_if<CurvesShape>(&instance.shape)) {
+    if (!curves->strands) return fmt::format("instances[{}]: has no strands", index);
+    if (checked.insert(curves->strands.get()).second)
+      if (auto wrong = strands_problem(*curves->strands); !wrong.empty())
+        return fmt::format("instances[{}].{}", index, wrong);
   }
   if (instance.materials.size() != slots)
     return fmt::format("instances[{}].materials: {} given for {} slots", index, instance.materials.size(),
@@ -176,7 +186,7 @@ std::string document_problem(const Document& document) {
       if (auto p = panorama_problem(*panorama); !p.empty())
         return fmt::format("lights[{}].panorama: {}", i, p);
   }
-  std::set<const Mesh*> checked;
+  std::set<const void*> checked;
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
     if (auto p = instance_problem(scene, scene.instances[i], i, checked); !p.empty()) return p;
   if (auto p = view_problem(scene.camera); !p.empty()) return "camera." + p;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr auto kInf = std::numeric_limits<double>::infinity();
 
-constexpr std::string_view kShapeNames[] = {"mesh", "sphere",   "rectangle", "disc", "plane",
-                                            "cube", "cylinder", "cone",      "torus"};
+constexpr std::string_view kShapeNames[] = {"mesh", "sphere",   "rectangle", "disc",  "plane",
+                                            "cube", "cylinder", "cone",      "torus", "curves"};
 static_assert(std::size(kShapeNames) == std::variant_size_v<Shape>);
 
 /// Lengths may be any number above 0.
@@ -44,14 +44,31 @@ const Field<Shape> kTorusFields[] = {
     length_row<TorusShape, &TorusShape::radius>("radius", "Radius of the circle at the tube's centre"),
     length_row<TorusShape, &TorusShape::minor_radius>("minor_radius", "Radius of the tube; below radius")};
 
+constexpr std::array<std::string_view, 2> kCurveFormNames{"round", "ribbon"};
+const Field<Shape> kCurvesFields[] = {
+    {{"form", FieldType::choice, 0, 0, "", "Tubes, or ribbons that face each ray: for thin hair",
+      Invalidates::scene, kCurveFormNames},
+     shape_member<CurvesShape, &CurvesShape::form>},
+    {{"thickness",
+      FieldType::real,
+      0,
+      kInf,
+      "",
+      "Multiplies the widths of all strands",
+      Invalidates::scene,
+      {},
+      true,
+      true},
+     shape_member<CurvesShape, &CurvesShape::thickness>}};
+
 } // namespace
 
 std::span<const std::string_view> shape_names() { return kShapeNames; }
 std::string_view shape_name(const Shape& shape) { return kShapeNames[shape.index()]; }
 
 std::optional<Shape> shape_of_name(std::string_view name) {
-  const Shape kinds[] = {SphereShape{}, RectangleShape{}, DiscShape{}, PlaneShape{},
-                         CubeShape{},   CylinderShape{},  ConeShape{}, TorusShape{}};
+  const Shape kinds[] = {SphereShape{},   RectangleShape{}, DiscShape{},  PlaneShape{}, CubeShape{},
+                         CylinderShape{}, ConeShape{},      TorusShape{}, CurvesShape{}};
   for (const Shape& shape : kinds)
     if (shape_name(shape) == name) return shape;
   return std::nullopt;
@@ -62,6 +79,7 @@ std::span<const Field<Shape>> shape_fields(const Shape& shape) {
   if (std::holds_alternative<CylinderShape>(shape)) return kCylinderFields;
   if (std::holds_alternative<ConeShape>(shape)) return kConeFields;
   if (std::holds_alternative<TorusShape>(shape)) return kTorusFields;
+  if (std::holds_alternative<CurvesShape>(shape)) return kCurvesFields;
   return {};
 }
 
@@ -82,6 +100,8 @@ Bounds3 shape_bounds(const Shape& shape) {
   } else if (const auto* torus = std::get_if<TorusShape>(&shape)) {
     vec3 corner(vec2(torus->radius + torus->minor_radius), torus->minor_radius);
     box = {-corner, corner};
+  } else if (const auto* curves = std::get_if<CurvesShape>(&shape)) {
+    box = strand_bounds(*curves->strands, curves->thickness);
   }
   return box;
 }

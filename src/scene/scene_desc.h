@@ -6,6 +6,7 @@
 #include "core/fields.h"
 #include "lights/light_desc.h"
 #include "materials/material.h"
+#include "scene/curves.h"
 #include "scene/mesh.h"
 #include "textures/texture.h"
 
@@ -81,7 +82,7 @@ struct TorusShape { ///< a tube about the circle of `radius` in the xy plane; mi
   bool operator==(const TorusShape&) const = default;
 };
 using Shape = std::variant<std::shared_ptr<const Mesh>, SphereShape, RectangleShape, DiscShape, PlaneShape,
-                           CubeShape, CylinderShape, ConeShape, TorusShape>;
+                           CubeShape, CylinderShape, ConeShape, TorusShape, CurvesShape>;
 
 /// A placed shape. Several instances may share one mesh.
 struct Instance {
@@ -107,7 +108,7 @@ struct SceneDesc {
   std::vector<LightDesc> lights;
   std::vector<Instance> instances;
   std::vector<std::shared_ptr<const Texture>> textures;
-  bool operator==(const SceneDesc&) const = default; ///< meshes and pictures by identity
+  bool operator==(const SceneDesc&) const = default; ///< meshes, strands and pictures by identity
 };
 
 /// Bounds in the shape's own space; for planes those of the unit square.

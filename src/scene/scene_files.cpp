@@ -7,6 +7,8 @@ std::set<std::string> source_files(const SceneDesc& scene) {
   for (const Instance& instance : scene.instances)
     if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape))
       files.insert((*mesh)->source);
+    else if (const auto* curves = std::get_if<CurvesShape>(&instance.shape))
+      files.insert(curves->strands->source);
   for (const auto& texture : scene.textures)
     if (const auto* image = texture->image()) files.insert(image->source);
   for (const LightDesc& light : scene.lights)

@@ -18,6 +18,7 @@
 // Two kinds have no intersect: the traversal tests triangles itself, in registers, and enters the trees of
 // instances.
 
+#include "accel/primitives/curves.h"
 #include "accel/primitives/discs.h"
 #include "accel/primitives/instances.h"
 #include "accel/primitives/spheres.h"
@@ -29,7 +30,7 @@
 namespace candela {
 
 /// In the order of PrimitiveKinds. Of hits at the same t, the lower kind is found.
-enum class PrimitiveKind : std::uint32_t { triangle, sphere, disc, instance };
+enum class PrimitiveKind : std::uint32_t { triangle, sphere, disc, instance, curve };
 
 namespace accel_detail {
 
@@ -75,13 +76,14 @@ struct PrimitiveKindList {
   static constexpr std::array<float, kCount> kLeafCost{Kinds::kLeafCost...};
 };
 
-using PrimitiveKinds =
-    PrimitiveKindList<primitives::Triangles, primitives::Spheres, primitives::Discs, primitives::Instances>;
+using PrimitiveKinds = PrimitiveKindList<primitives::Triangles, primitives::Spheres, primitives::Discs,
+                                         primitives::Instances, primitives::Curves>;
 
 static_assert(PrimitiveKinds::kind_of<primitives::Triangles> == PrimitiveKind::triangle);
 static_assert(PrimitiveKinds::kind_of<primitives::Spheres> == PrimitiveKind::sphere);
 static_assert(PrimitiveKinds::kind_of<primitives::Discs> == PrimitiveKind::disc);
 static_assert(PrimitiveKinds::kind_of<primitives::Instances> == PrimitiveKind::instance);
+static_assert(PrimitiveKinds::kind_of<primitives::Curves> == PrimitiveKind::curve);
 
 inline constexpr auto kNoPart = [](simd::Vec4, simd::Vec4) {};
 

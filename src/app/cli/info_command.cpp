@@ -78,6 +78,12 @@ int run_info(const SceneOptions& options) {
   out["spheres"] = geometry.spheres().size();
   out["rectangles"] = geometry.rectangles().size();
   out["discs"] = geometry.discs().size();
+  std::set<const Strands*> hair;
+  std::size_t strands = 0;
+  for (const Instance& instance : desc.instances)
+    if (const auto* curves = std::get_if<CurvesShape>(&instance.shape))
+      if (hair.insert(curves->strands.get()).second) strands += curves->strands->counts.size();
+  out["curves"] = {{"strands", strands}, {"pieces", geometry.curves().segments.size()}};
   out["materials"] = desc.materials.size();
   out["material_types"] = nlohmann::ordered_json::object();
   for (const Material& material : desc.materials) {

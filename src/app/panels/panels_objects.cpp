@@ -31,6 +31,8 @@ const FieldInfo kScale{"scale",
 std::string shape_text(const Shape& shape) {
   if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
     return fmt::format("{}, {} triangles", shape_name(shape), (*mesh)->triangles.size());
+  if (const auto* curves = std::get_if<CurvesShape>(&shape))
+    return fmt::format("{}, {} strands", shape_name(shape), curves->strands->counts.size());
   return std::string(shape_name(shape));
 }
 

@@ -1,5 +1,6 @@
 #include "io/builder/scene_builder.h"
 
+#include "io/curves/curves_file.h"
 #include "io/files/text_file.h"
 #include "io/images/panorama_reader.h"
 #include "io/images/texels_reader.h"
@@ -40,6 +41,12 @@ MeshFile& SceneBuilder::mesh_file(const FoundFile& file, const std::string& name
   renamed.name = key;
   std::vector<int> none(first.mtl.size(), -1);
   return by_name[key] = {std::make_shared<const Mesh>(std::move(renamed)), first.mtl, none};
+}
+
+std::shared_ptr<const Strands> SceneBuilder::strands(const FoundFile& file) {
+  auto& known = strands_[file.canonical];
+  if (!known) known = read_curves_file(file.canonical, warnings_);
+  return known;
 }
 
 int SceneBuilder::texture(const FoundFile& file) {

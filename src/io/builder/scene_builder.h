@@ -38,6 +38,9 @@ public:
   MeshFile& mesh_file(const FoundFile& file, const std::string& name, const Location& where,
                       std::string_view element);
 
+  /// The strands of a binary file (io/curves); a file is read once.
+  std::shared_ptr<const Strands> strands(const FoundFile& file);
+
   /// Index of the picture in SceneDesc::textures; the same file is one texture.
   int texture(const FoundFile& file);
   /// The same for a picture that an exporter named at `where`: -1, with a warning, if it cannot be read.
@@ -74,6 +77,7 @@ private:
   MtlDialect dialect_;
   WarningList& warnings_;
   std::map<std::string, std::map<std::string, MeshFile>> meshes_; ///< by canonical path, then name
+  std::map<std::string, std::shared_ptr<const Strands>> strands_; ///< by canonical path
   std::map<std::string, int> textures_;                           ///< by canonical path
   std::map<std::vector<std::string>, std::shared_ptr<const Panorama>> panoramas_; ///< by canonical paths
   std::unordered_set<std::string> material_names_;

@@ -52,10 +52,15 @@
 // "shape" is one of shape_names() in scene/scene_desc.h, with the values of shape_fields(): sphere (with
 // "radius", about the origin), rectangle ([-1, 1]^2 in the xy plane), disc (of radius 1 there), plane (all of
 // it; these face +z), cube ([-1, 1]^3), cylinder and cone ("radius", "height", "caps"; along z from 0), torus
-// ("radius", "minor_radius"; about z). It may be left out beside "mesh" and
+// ("radius", "minor_radius"; about z), curves ("form", "thickness"). It may be left out beside "mesh" and
 // "file". "material" names a material (or is its index) for all slots of a mesh, "materials" one for each
 // slot by the slot's name, or a list in the order of the slots. Slots of an OBJ file left without one get
 // that of its MTL, imported as "mesh/slot"; all others a grey.
+//
+// Curves are strands from root to tip: a "file" (io/curves/curves_file.h), or inline "strands", a list of
+// control points [[x, y, z], ...] for each, in the "basis" "bspline" (uniform, 4 points or more) or "bezier"
+// (4, 7, 10 ... points), and their diameters: "width", a number or [root, tip], linear along the strand, or
+// "widths", a list for each strand with one for each control point, in the same basis; "source" as of meshes.
 //
 // "transform" (world from object) is a matrix of 16 numbers, row-major, or a list of steps applied in the
 // order in which they are listed: {"translate": [x, y, z]}, {"rotate": [axis x, y, z, degrees]}, {"scale": s

@@ -1,5 +1,6 @@
 #include "io/candela/candela_json.h"
 #include "io/candela/json_camera.h"
+#include "io/candela/json_curves.h"
 #include "io/candela/json_fields.h"
 #include "io/candela/json_light.h"
 #include "io/candela/json_material.h"
@@ -215,7 +216,14 @@ private:
       if (!field_equal(row, value, row.address(standard)))
         members.push_back(fmt::format("\"{}\": {}", row.key, field_json(row, value)));
     }
+    if (const auto* curves = std::get_if<CurvesShape>(&any)) members.push_back(strands(*curves->strands));
     return joined(members, ", ");
+  }
+
+  std::string strands(const Strands& strands) const {
+    if (auto path = path_below(folder_.string(), strands.source))
+      return fmt::format("\"file\": {}", json_quoted(*path));
+    return json_strands_members(strands, "      ");
   }
 
   void count_names() {

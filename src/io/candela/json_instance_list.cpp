@@ -1,5 +1,6 @@
 #include "io/candela/json_instance_list.h"
 
+#include "io/candela/json_curves.h"
 #include "io/candela/json_mesh.h"
 #include "io/candela/json_transform.h"
 
@@ -9,11 +10,20 @@ namespace candela {
 
 namespace {
 
+/// What only curves have is an error in other shapes.
+void refuse_strands(const std::map<std::string_view, JsonValue>& parts, std::string_view kind,
+                    const std::string& element) {
+  for (std::string_view key : {"basis", "strands", "width", "widths", "source"})
+    if (const auto given = parts.find(key); given != parts.end())
+      throw input_error(given->second.where(), element, fmt::format("a {} has no {}", kind, key),
+                        "leave it out, or say \"shape\": \"curves\"");
+}
+
 /// The values of the shape's kind; those of other kinds are errors.
 void read_shape_values(Shape& shape, const std::map<std::string_view, JsonValue>& parts, JsonValue object,
                        const std::string& element) {
   auto rows = shape_fields(shape);
-  for (std::string_view key : {"radius", "height", "minor_radius", "caps"}) {
+  for (std::string_view key : {"radius", "height", "minor_radius", "caps", "form", "thickness"}) {
     auto given = parts.find(key);
     if (given == parts.end()) continue;
     auto row = std::ranges::find(rows, key, &FieldInfo::key);
@@ -72,9 +82,9 @@ void JsonInstanceList::read_instances(JsonValue array) {
 }
 
 void JsonInstanceList::read_instance(JsonValue object, const std::string& element) {
-  constexpr std::string_view kKeys[] = {"name",     "shape",        "mesh",      "file",
-                                        "material", "materials",    "transform", "radius",
-                                        "height",   "minor_radius", "caps"};
+  constexpr std::string_view kKeys[] = {
+      "name",         "shape", "mesh", "file",  "material", "materials", "transform", "radius", "height",
+      "minor_radius", "caps",  "form", "basis", "strands",  "thickness", "width",     "widths", "source"};
   std::map<std::string_view, JsonValue> parts;
   for (auto [key, value] : object.members()) {
     auto known = std::ranges::find(kKeys, key.string());
@@ -97,7 +107,8 @@ void JsonInstanceList::read_instance(JsonValue object, const std::string& elemen
     throw input_error(object.where(), element, "it has no shape",
                       fmt::format("give a \"shape\": {}", fmt::join(shape_names(), ", ")));
   std::string kind = shape ? read_string(*shape, element + ".shape") : "mesh";
-  if (kind != "mesh" && names_mesh)
+  const bool curves = kind == shape_name(CurvesShape{});
+  if (kind != "mesh" && names_mesh && !(curves && !part("mesh")))
     throw input_error((part("mesh") ? part("mesh") : part("file"))->where(), element,
                       fmt::format("a {} has no mesh", kind), "leave it out, or say \"shape\": \"mesh\"");
   MeshFile* file = nullptr;
@@ -105,6 +116,8 @@ void JsonInstanceList::read_instance(JsonValue object, const std::string& elemen
     NamedMesh mesh = mesh_part(object, part("mesh"), part("file"), element);
     file = mesh.file;
     out.shape = std::move(mesh.mesh);
+  } else if (curves) {
+    out.shape = CurvesShape{read_strands(parts, object, element)};
   } else if (auto standard = shape_of_name(kind)) {
     out.shape = *standard;
   } else {
@@ -112,10 +125,31 @@ void JsonInstanceList::read_instance(JsonValue object, const std::string& elemen
                       fmt::format("there is no shape '{}'", kind.substr(0, 60)),
                       fmt::format("give one of {}", fmt::join(shape_names(), ", ")));
   }
+  if (!curves) refuse_strands(parts, kind, element);
   read_shape_values(out.shape, parts, object, element);
   source_.builder.place(out, world_from_object, object.where());
   read_instance_materials(out, part("material"), part("materials"), file, object, element);
   source_.builder.scene().instances.push_back(std::move(out));
+}
+
+std::shared_ptr<const Strands> JsonInstanceList::read_strands(const Parts& parts, JsonValue object,
+                                                              const std::string& element) const {
+  auto part = [&](std::string_view key) {
+    const auto found = parts.find(key);
+    return found == parts.end() ? std::nullopt : std::optional(found->second);
+  };
+  const auto file = part("file");
+  const JsonStrands inline_parts{part("basis"), part("strands"), part("width"), part("widths"),
+                                 part("source")};
+  if (!file)
+    return std::make_shared<const Strands>(
+        read_json_strands(inline_parts, object, element, source_.builder.warnings()));
+  for (const auto& given : {inline_parts.basis, inline_parts.strands, inline_parts.width, inline_parts.widths,
+                            inline_parts.source})
+    if (given)
+      throw input_error(given->where(), element, "its strands are those of a file",
+                        "leave this out, or the file; \"thickness\" multiplies all widths");
+  return source_.builder.strands(source_.require_file(*file, element + ".file"));
 }
 
 JsonInstanceList::NamedMesh JsonInstanceList::mesh_part(JsonValue object, const JsonValue* mesh,

@@ -19,6 +19,8 @@ public:
   void read_instances(JsonValue array);
 
 private:
+  using Parts = std::map<std::string_view, JsonValue>; ///< members of an instance by their keys
+
   /// A mesh that instances may use, and its file if it has one (for the materials of its MTL).
   struct NamedMesh {
     std::shared_ptr<const Mesh> mesh;
@@ -27,6 +29,8 @@ private:
 
   NamedMesh mesh_of_file(JsonValue value, const std::string& name, const std::string& element);
   void read_instance(JsonValue object, const std::string& element);
+  std::shared_ptr<const Strands> read_strands(const Parts& parts, JsonValue object,
+                                              const std::string& element) const;
   NamedMesh mesh_part(JsonValue object, const JsonValue* mesh, const JsonValue* file,
                       const std::string& element);
   void read_instance_materials(Instance& out, const JsonValue* all, const JsonValue* by_slot, MeshFile* file,

@@ -167,13 +167,16 @@ void PathTracer::add_escaped(const Path& path, std::uint32_t light, Spectrum rad
 void PathTracer::add_emitted(const Path& path, const SurfaceInteraction& surface, Spectrum emission,
                              int depth) {
   float pdf = 0;
+  const std::uint32_t i = scene_.light_of(surface.emitter);
+  if (i == kNoLight) { // that no light sample finds, as curves
+    results_[path.result].add(path.throughput * emission, depth);
+    return;
+  }
   if (needs_light_pdf(path)) {
-    std::uint32_t i = scene_.light_of(surface.emitter);
-    if (i != kNoLight)
-      pdf = light_sampling_pdf(
-          scene_, path.light_context, i,
-          light_pdf(scene_.lights()[i], path.light_context, surface.position, path.ray.direction),
-          path.ray.direction);
+    pdf = light_sampling_pdf(
+        scene_, path.light_context, i,
+        light_pdf(scene_.lights()[i], path.light_context, surface.position, path.ray.direction),
+        path.ray.direction);
   }
   results_[path.result].add(path.throughput * emission * bsdf_sampling_weight(path, pdf), depth);
 }

@@ -47,7 +47,7 @@ public:
   std::size_t memory_bytes() const;
 
   /// Every primitive that could emit has a number: world triangles, then spheres, discs, then triangles of
-  /// instances, which may be more than 2^32.
+  /// instances, which may be more than 2^32, then segments of curves.
   std::uint64_t emitter_count() const { return surfaces_.count(); }
   /// The hit of a ray that starts at the point, which lies on the primitive of that number.
   Hit hit_at(std::uint64_t emitter, vec3 point) const;
@@ -59,6 +59,7 @@ public:
   }
   const std::vector<SphereGeometry>& spheres() const { return surfaces_.of<SphereSurfaces>().spheres; }
   const std::vector<DiscGeometry>& discs() const { return surfaces_.of<DiscSurfaces>().discs; }
+  const CurveSurfaces& curves() const { return surfaces_.of<CurveSurfaces>(); }
   const std::vector<Placed>& placed() const { return surfaces_.of<InstanceSurfaces>().placed; }
   const Objects& objects() const { return surfaces_.of<InstanceSurfaces>().objects; }
 

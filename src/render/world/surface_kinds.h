@@ -3,6 +3,7 @@
 // accel/primitives/primitive_kinds.h, a file of this folder, and its name here; hits, texture coordinates,
 // lights, numbers and the build follow from it.
 
+#include "render/world/curve_surfaces.h"
 #include "render/world/disc_surfaces.h"
 #include "render/world/instance_surfaces.h"
 #include "render/world/sphere_surfaces.h"
@@ -10,6 +11,7 @@
 
 namespace candela {
 
-using SurfaceKinds = SurfaceKindList<TriangleSurfaces, SphereSurfaces, DiscSurfaces, InstanceSurfaces>;
+using SurfaceKinds =
+    SurfaceKindList<TriangleSurfaces, SphereSurfaces, DiscSurfaces, InstanceSurfaces, CurveSurfaces>;
 
 } // namespace candela

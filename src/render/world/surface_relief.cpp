@@ -42,6 +42,7 @@ vec3 relief_normal(const SurfaceMaterial& material, const Geometry& geometry, co
 void orient_bsdf(Bsdf& bsdf, const Geometry& geometry, const Ray& ray, const Hit& hit, vec3 normal) {
   if (!is_anisotropic(bsdf)) return;
   set_tangent(bsdf, vec2(Basis::from_normal(normal).to_local(geometry.tangents(ray, hit).dpdu)));
+  if (hit.kind == PrimitiveKind::curve) set_fibre_offset(bsdf, 2 * geometry.uv(ray, hit).y - 1);
 }
 
 } // namespace candela

@@ -13,7 +13,8 @@ namespace candela {
 vec3 relief_normal(const SurfaceMaterial& material, const Geometry& geometry, const Ray& ray, const Hit& hit,
                    const SurfaceInteraction& surface, const ConeOfRay* cone = nullptr);
 
-/// Tells an anisotropic closure where dp/du lies in the local frame (Basis::from_normal) about the normal.
+/// Tells an anisotropic closure where dp/du lies in the local frame (Basis::from_normal) about the normal,
+/// and that of a fibre where across it a curve was met.
 void orient_bsdf(Bsdf& bsdf, const Geometry& geometry, const Ray& ray, const Hit& hit, vec3 normal);
 
 } // namespace candela

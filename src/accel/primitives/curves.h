@@ -1,0 +1,188 @@
+#pragma once
+// Strands of hair: cubic Bezier curves with a radius at each control point, as round tubes or as flat ribbons
+// that face the ray.
+//
+// A tube is the envelope of balls along the curve. Only its outside is hit, as in Embree and Mitsuba: a ray
+// that begins inside leaves it unhindered. A ribbon faces each ray wherever it meets it; a ray that begins
+// within the tube about it does not hit it there, so that a ray never hits the spot that it leaves.
+
+#include "accel/primitives/pack.h"
+
+#include <optional>
+
+namespace candela {
+
+/// A piece of a strand. World space; pieces of a strand share their end points, bit for bit.
+struct CurveSegment {
+  /// What the ends of the piece are, and its form.
+  enum Flags : std::uint32_t {
+    tube = 0,
+    ribbon = 1,
+    /// A ball closes the tube, or a disc that faces the ray the ribbon: at the ends of tubes and where
+    /// strands have a corner. Elsewhere the next piece goes on in the same direction.
+    closed_start = 2,
+    closed_end = 4,
+    /// Nothing goes on here, nor is it closed: the ends of ribbons.
+    cut_start = 8,
+    cut_end = 16,
+  };
+  std::array<vec4, 4> points{}; ///< control points, and their radii in w
+  std::uint32_t flags = tube;
+};
+
+struct alignas(32) CurvePack {
+  std::array<std::array<std::array<float, kWidth>, 4>, 4> point; ///< [k][x, y, z, radius]
+  std::array<std::uint32_t, kWidth> primitive, flags;
+
+  static CurvePack unused() {
+    constexpr std::array<float, kWidth> kNone{};
+    constexpr std::array<std::array<float, kWidth>, 4> kPoint{kNowhere, kNowhere, kNowhere, kNone};
+    return {{kPoint, kPoint, kPoint, kPoint}, {}, {}};
+  }
+  bool operator==(const CurvePack&) const = default;
+};
+
+namespace accel_detail {
+
+/// A ray as curves are tested with it, in double precision: its length along a unit direction, and two axes
+/// across.
+struct CurveRay {
+  glm::dvec3 origin, along, across_x, across_y;
+  double length; ///< of the ray's direction
+  float t_min, t_max;
+
+  CurveRay(const Ray& ray, float least, float greatest);
+};
+
+struct CurveHit {
+  float t;
+  float u; ///< of the segment, 0 to 1; beyond by kCurveOverlap at most, where it goes on
+};
+
+/// Pieces that go on beyond an end are tested that much farther, so that what rounds differently in both
+/// leaves no gap between them.
+inline constexpr double kCurveOverlap = 0x1p-10;
+
+/// The closest hit with t in (t_min, t_max).
+std::optional<CurveHit> intersect_curve(const CurveSegment& segment, const CurveRay& ray);
+
+} // namespace accel_detail
+
+namespace primitives {
+
+struct Curves {
+  struct Input {
+    std::span<const CurveSegment> curves = {};
+  };
+  using Pack = CurvePack;
+  static constexpr std::uint32_t kLeafCapacity = kWidth;
+  static constexpr float kLeafCost = 2;
+
+  static std::size_t count(const Input& input) { return input.curves.size(); }
+
+  static Bounds3 bounds(const Input& input, std::size_t i) {
+    const auto& p = input.curves[i].points;
+    Bounds3 hull;
+    float radius = 0;
+    for (const vec4& point : p) {
+      if (!accel_detail::usable(vec3(point)) || !(std::abs(point.w) <= kMaxCoordinate)) return {};
+      hull.grow(vec3(point));
+      radius = std::max(radius, point.w);
+    }
+    if (!(radius > 0)) return {};
+    // What goes on beyond the ends: the tangents there, by the overlap, and half as much again.
+    const vec3 beyond =
+        glm::max(glm::abs(vec3(p[1] - p[0])), glm::abs(vec3(p[3] - p[2]))) * (4.5f * kOverlap);
+    return accel_detail::padded(hull.center(),
+                                0.5f * hull.diagonal() + beyond + radius * (1 + 4.5f * kOverlap));
+  }
+
+  static void fill(Pack& pack, const Input& input, std::span<const std::uint32_t> primitives) {
+    accel_detail::fill_lanes(pack, primitives, [&](std::size_t lane, std::uint32_t i) {
+      const CurveSegment& curve = input.curves[i];
+      for (std::size_t k = 0; k < 4; ++k)
+        for (int axis = 0; axis < 4; ++axis)
+          pack.point[k][static_cast<std::size_t>(axis)][lane] = curve.points[k][axis];
+      pack.flags[lane] = curve.flags;
+    });
+  }
+
+  /// The lanes whose control polygon comes near the ray are tested one by one, in double precision.
+  template <class F>
+  static void intersect(const Pack& pack, const Ray& ray, float t_min, float t_max,
+                        accel_detail::LaneHits& hits) {
+    const simd::LaneMask near = near_lanes<F>(pack, ray);
+    hits.lanes = 0;
+    if (!near) return;
+    const accel_detail::CurveRay curve_ray(ray, t_min, t_max);
+    simd::for_each_lane(near, [&](int i) {
+      const auto lane = static_cast<std::size_t>(i);
+      const auto hit = accel_detail::intersect_curve(segment(pack, lane), curve_ray);
+      if (!hit) return;
+      hits.t[lane] = hit->t;
+      hits.lanes |= 1u << i;
+    });
+  }
+
+  /// CurveHit::u, and 0.
+  static vec2 parameters(const Pack& pack, std::size_t lane, const Ray& ray, float t) {
+    const accel_detail::CurveRay again(ray, std::nextafter(t, -kInfinity), std::nextafter(t, kInfinity));
+    const auto hit = accel_detail::intersect_curve(segment(pack, lane), again);
+    return {hit ? hit->u : 0, 0};
+  }
+
+private:
+  static constexpr auto kOverlap = static_cast<float>(accel_detail::kCurveOverlap);
+
+  static CurveSegment segment(const Pack& pack, std::size_t lane) {
+    CurveSegment curve;
+    for (std::size_t k = 0; k < 4; ++k)
+      for (int axis = 0; axis < 4; ++axis)
+        curve.points[k][axis] = pack.point[k][static_cast<std::size_t>(axis)][lane];
+    curve.flags = pack.flags[lane];
+    return curve;
+  }
+
+  /// Seen along the ray, the curve lies within the hull of its control points, grown by the greatest radius:
+  /// lanes where that misses the ray along either axis across it, or across the line between the ends, are
+  /// out. Unused lanes are NaN or infinite, and out.
+  template <class F>
+  static simd::LaneMask near_lanes(const Pack& pack, const Ray& ray) {
+    const vec3 along = glm::normalize(ray.direction);
+    const float sign = std::copysign(1.0f, along.z), a = -1 / (sign + along.z), b = along.x * along.y * a;
+    const vec3 axis_x(1 + sign * along.x * along.x * a, sign * b, -sign * along.x),
+        axis_y(b, sign + along.y * along.y * a, -along.y); // Duff et al. 2017, as core/basis.h
+    std::array<F, 4> x, y;
+    F radius(0.0f), reach(0.0f);
+    for (std::size_t k = 0; k < 4; ++k) {
+      std::array<F, 3> p;
+      for (std::size_t i = 0; i < 3; ++i) {
+        p[i] = F::load(pack.point[k][i].data()) - F(ray.origin[static_cast<int>(i)]);
+        reach = max(max(p[i], F(0.0f) - p[i]), reach);
+      }
+      x[k] = p[0] * F(axis_x.x) + p[1] * F(axis_x.y) + p[2] * F(axis_x.z);
+      y[k] = p[0] * F(axis_y.x) + p[1] * F(axis_y.y) + p[2] * F(axis_y.z);
+      radius = max(F::load(pack.point[k][3].data()), radius);
+    }
+    // The axes are off by some eps, the sums by some eps of what is summed (eps = 2^-24); what lies beyond
+    // the ends is within 3 kCurveOverlap of what they span.
+    const F rounding = reach * F(0x1p-19f), thick = radius * F(1 + 8 * kOverlap) + rounding;
+    auto least = [](const std::array<F, 4>& at) { return min(min(at[0], at[1]), min(at[2], at[3])); };
+    auto greatest = [](const std::array<F, 4>& at) { return max(max(at[0], at[1]), max(at[2], at[3])); };
+    auto meets = [&](const std::array<F, 4>& at, F limit) {
+      const F lo = least(at), hi = greatest(at);
+      limit = limit + (hi - lo) * F(8 * kOverlap);
+      return less_equal(lo, limit) & less_equal(F(0.0f) - limit, hi);
+    };
+    const simd::LaneMask lanes = meets(x, thick) & meets(y, thick);
+    if (!lanes) return 0;
+    const F nx = y[0] - y[3], ny = x[3] - x[0];
+    std::array<F, 4> off;
+    for (std::size_t k = 0; k < 4; ++k) off[k] = x[k] * nx + y[k] * ny;
+    return lanes & meets(off, (thick + rounding) * sqrt(nx * nx + ny * ny) * F(1 + 0x1p-20f));
+  }
+};
+
+} // namespace primitives
+
+} // namespace candela

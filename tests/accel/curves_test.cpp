@@ -1,0 +1,354 @@
+// Curves against balls along them in double precision, closed forms, and the tree against all one by one.
+
+#include "accel/brute_force.h"
+#include "accel/traversal.h"
+#include "support/seed.h"
+
+namespace candela::test {
+namespace {
+
+using accel_detail::CurveHit;
+using accel_detail::CurveRay;
+using accel_detail::intersect_curve;
+
+constexpr std::uint32_t kClosed = CurveSegment::closed_start | CurveSegment::closed_end;
+constexpr std::uint32_t kCut = CurveSegment::cut_start | CurveSegment::cut_end;
+
+glm::dvec4 curve_at(const CurveSegment& c, double u) {
+  const double v = 1 - u;
+  return v * v * v * glm::dvec4(c.points[0]) + 3 * u * v * v * glm::dvec4(c.points[1]) +
+         3 * u * u * v * glm::dvec4(c.points[2]) + u * u * u * glm::dvec4(c.points[3]);
+}
+
+/// What a ray that begins outside of the balls along a curve enters first, sampled densely.
+struct DenseHit {
+  double nearest_miss = -1e300; ///< the greatest of r - distance of the line to the axis, in front
+  double t = 1e300, u = 0;
+};
+DenseHit dense_hit(const CurveSegment& c, const Ray& ray) {
+  const glm::dvec3 o(ray.origin), d = glm::normalize(glm::dvec3(ray.direction));
+  DenseHit hit;
+  auto look = [&](double u) {
+    const glm::dvec4 p = curve_at(c, u);
+    const glm::dvec3 f = glm::dvec3(p) - o;
+    const double z = glm::dot(f, d), beside = glm::length(f - z * d), half = p.w * p.w - beside * beside;
+    if (z > 0) hit.nearest_miss = std::max(hit.nearest_miss, p.w - beside);
+    const double s = half >= 0 ? z - std::sqrt(half) : 1e300;
+    if (s > 0 && s < hit.t) hit.t = s, hit.u = u;
+  };
+  constexpr int kSteps = 4000;
+  for (int i = 0; i <= kSteps; ++i) look(i / static_cast<double>(kSteps));
+  for (double step = 1.0 / kSteps; step > 1e-10 && hit.t < 1e300; step *= 0.25) {
+    const double middle = hit.u;
+    for (int i = -4; i <= 4; ++i) look(std::clamp(middle + i * step / 4, 0.0, 1.0));
+  }
+  if (hit.t < 1e300) hit.t /= static_cast<double>(glm::length(ray.direction));
+  return hit;
+}
+
+CurveSegment random_curve(Random& random, float bend, float radius, std::uint32_t flags) {
+  CurveSegment c;
+  const vec3 from = random.in_cube(), to = from + random.direction();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const vec3 p =
+        glm::mix(from, to, static_cast<float>(k) / 3) + (k % 3 != 0 ? random.in_cube(bend) : vec3(0));
+    c.points[k] = vec4(p, radius * random.uniform(0.3f, 1));
+  }
+  c.flags = flags;
+  return c;
+}
+
+Ray ray_near(Random& random, const CurveSegment& c, float off) {
+  const vec3 target = vec3(glm::vec4(curve_at(c, static_cast<double>(random.uniform()))));
+  const vec3 direction = random.direction();
+  const vec3 aside = random.in_cube(off);
+  return {target + aside - direction * random.uniform(2, 5), 0, direction * random.uniform(0.5f, 2),
+          kInfinity};
+}
+
+bool begins_outside(const CurveSegment& c, vec3 o) {
+  for (int i = 0; i <= 200; ++i) {
+    const glm::dvec4 p = curve_at(c, i / 200.0);
+    if (glm::length(glm::dvec3(p) - glm::dvec3(o)) < 1.05 * p.w + 0.01) return false;
+  }
+  return true;
+}
+
+TEST(CurvesStatistical, TubesAreHitWhereTheirBallsAre) {
+  Random random(fresh_seed());
+  SCOPED_TRACE(seed_note());
+  int hits = 0, misses = 0;
+  for (float radius : {0.3f, 0.05f, 0.004f})
+    for (float bend : {0.0f, 0.1f, 1.0f})
+      for (int i = 0; i < 220; ++i) {
+        const CurveSegment c = random_curve(random, bend, radius, kClosed);
+        const Ray ray = ray_near(random, c, 1.5f * radius);
+        if (!begins_outside(c, ray.origin)) continue;
+        const auto hit = intersect_curve(c, CurveRay(ray, 0, kInfinity));
+        const DenseHit dense = dense_hit(c, ray);
+        // Dense samples may be off across the axis by the square of their distance.
+        if (dense.nearest_miss < -1e-5) {
+          ++misses;
+          ASSERT_FALSE(hit) << radius << ' ' << bend;
+        } else if (dense.t < 1e300) {
+          ++hits;
+          ASSERT_TRUE(hit) << radius << ' ' << bend << " t " << dense.t << " depth " << dense.nearest_miss;
+          ASSERT_NEAR(hit->t, dense.t, 2e-6 * (1 + dense.t)) << radius << ' ' << bend;
+        }
+      }
+  EXPECT_GT(hits, 400);
+  EXPECT_GT(misses, 200);
+}
+
+TEST(CurvesStatistical, RaysAlongTheirTangentsHitTubes) {
+  // End-on, several parts of a curve are within its radius of the ray.
+  Random random(fresh_seed());
+  SCOPED_TRACE(seed_note());
+  for (float radius : {0.1f, 0.01f, 0.001f})
+    for (int i = 0; i < 200; ++i) {
+      const CurveSegment c = random_curve(random, 0.3f, radius, kClosed);
+      const double u = static_cast<double>(random.uniform(0.05f, 0.95f));
+      const glm::dvec4 p = curve_at(c, u);
+      const vec3 tangent = glm::normalize(vec3(glm::dvec3(curve_at(c, u + 1e-4)) - glm::dvec3(p)));
+      const Ray ray{vec3(p) - 4.0f * tangent + random.in_cube(0.5f * radius), 0, tangent, kInfinity};
+      if (!begins_outside(c, ray.origin)) continue;
+      const auto hit = intersect_curve(c, CurveRay(ray, 0, kInfinity));
+      const DenseHit dense = dense_hit(c, ray);
+      if (!(dense.t < 1e300)) continue;
+      ASSERT_TRUE(hit);
+      ASSERT_NEAR(hit->t, dense.t, 2e-3 * static_cast<double>(radius) + 2e-6 * dense.t);
+    }
+}
+
+TEST(CurvesStatistical, StraightTubesAreCylinders) {
+  Random random(fresh_seed());
+  SCOPED_TRACE(seed_note());
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const vec3 axis = random.direction(), from = random.in_cube();
+    const float r = 0.02f, length = 2;
+    CurveSegment c;
+    for (std::size_t k = 0; k < 4; ++k)
+      c.points[k] = vec4(from + axis * (length * static_cast<float>(k) / 3), r);
+    const Ray ray{from + axis + 3.0f * random.direction(), 0, random.direction(), kInfinity};
+    const vec3 at = from + axis * random.uniform(0.2f, 1.8f) + random.in_cube(1.5f * r);
+    const Ray aimed{ray.origin, 0, at - ray.origin, kInfinity};
+    const glm::dvec3 a = glm::normalize(glm::dvec3(c.points[3]) - glm::dvec3(c.points[0])),
+                     f = glm::dvec3(aimed.origin) - glm::dvec3(from), d(aimed.direction);
+    const glm::dvec3 d2 = d - glm::dot(d, a) * a, f2 = f - glm::dot(f, a) * a;
+    const double qa = glm::dot(d2, d2), qb = glm::dot(d2, f2), qc = glm::dot(f2, f2) - double{r} * double{r};
+    const double disc = qb * qb - qa * qc;
+    const auto hit = intersect_curve(c, CurveRay(aimed, 0, kInfinity));
+    if (std::abs(disc) < 1e-4 * qa * double{r} * double{r}) continue; // grazing
+    const double t = disc > 0 ? (-qb - std::sqrt(disc)) / qa : -1;
+    const double along = glm::dot(f + t * d, a);
+    if (disc > 0 && t > 0 && along > 0.01 && along < 1.99) {
+      ++hits;
+      ASSERT_TRUE(hit);
+      ASSERT_NEAR(hit->t, t, 1e-6 * t + 2e-6);
+      ASSERT_NEAR(hit->u, along / 2, 1e-5);
+    } else if (disc < 0) {
+      ASSERT_FALSE(hit);
+    }
+  }
+  EXPECT_GT(hits, 700);
+}
+
+/// Strands as pieces that share their ends.
+std::vector<CurveSegment> wavy_strand(Random& random, std::size_t segments, float radius,
+                                      std::uint32_t form) {
+  std::vector<vec3> knots;
+  vec3 p = random.in_cube(), direction = random.direction();
+  for (std::size_t i = 0; i < segments + 3; ++i) {
+    knots.push_back(p);
+    direction = glm::normalize(direction + random.in_cube(0.8f));
+    p += 0.2f * direction;
+  }
+  std::vector<CurveSegment> out;
+  for (std::size_t i = 0; i < segments; ++i) {
+    const glm::dvec3 a(knots[i]), b(knots[i + 1]), c(knots[i + 2]), d(knots[i + 3]);
+    CurveSegment s;
+    s.points = {vec4(vec3((a + 4.0 * b + c) / 6.0), radius), vec4(vec3((2.0 * b + c) / 3.0), radius),
+                vec4(vec3((b + 2.0 * c) / 3.0), radius), vec4(vec3((b + 4.0 * c + d) / 6.0), radius)};
+    s.flags = form;
+    const bool ribbon = form == CurveSegment::ribbon;
+    if (i == 0) s.flags |= ribbon ? CurveSegment::cut_start : CurveSegment::closed_start;
+    if (i + 1 == segments) s.flags |= ribbon ? CurveSegment::cut_end : CurveSegment::closed_end;
+    out.push_back(s);
+  }
+  return out;
+}
+
+std::optional<float> closest(std::span<const CurveSegment> strand, const Ray& ray) {
+  std::optional<float> t;
+  const CurveRay seen(ray, ray.t_min, ray.t_max);
+  for (const CurveSegment& c : strand)
+    if (const auto hit = intersect_curve(c, seen); hit && (!t || hit->t < *t)) t = hit->t;
+  return t;
+}
+
+TEST(CurvesStatistical, StrandsHaveNoGaps) {
+  // Rays through the axis at and near the joints, as close as floats come.
+  Random random(fresh_seed());
+  SCOPED_TRACE(seed_note());
+  for (std::uint32_t form : {std::uint32_t{CurveSegment::tube}, std::uint32_t{CurveSegment::ribbon}})
+    for (float radius : {0.05f, 0.002f})
+      for (int i = 0; i < 3000; ++i) {
+        const auto strand = wavy_strand(random, 4, radius, form);
+        const CurveSegment& c = strand[1 + random.below(2)];
+        const float near = random.uniform() < 0.3f ? 0 : std::exp2(random.uniform(-24, -3));
+        const vec3 target = vec3(glm::vec4(curve_at(c, static_cast<double>(near))));
+        const vec3 direction = random.direction(), origin = target - 3.0f * direction;
+        ASSERT_TRUE(closest(strand, {origin, 0, target - origin, kInfinity}))
+            << "form " << form << ", radius " << radius << ", u " << near;
+      }
+}
+
+TEST(CurvesStatistical, RaysLeaveTubesFromInside) {
+  Random random(fresh_seed());
+  SCOPED_TRACE(seed_note());
+  for (float bend : {0.0f, 0.02f})
+    for (int i = 0; i < 3000; ++i) {
+      CurveSegment c = random_curve(random, bend, 0.05f, kClosed);
+      for (vec4& p : c.points) p.w = 0.05f;
+      const double u = static_cast<double>(random.uniform(0.2f, 0.8f));
+      const vec3 inside = vec3(glm::vec4(curve_at(c, u))) + 0.04f * random.direction();
+      EXPECT_FALSE(intersect_curve(c, CurveRay({inside, 0, random.direction(), kInfinity}, 0, kInfinity)));
+    }
+}
+
+TEST(CurvesStatistical, RaysLeaveRibbonsWhereTheyBegin) {
+  // All but rays nearly along them: the tube about a ribbon is taken for straight, and not for endless.
+  Random random(fresh_seed());
+  SCOPED_TRACE(seed_note());
+  int left = 0;
+  for (float bend : {0.0f, 0.02f})
+    for (int i = 0; i < 3000; ++i) {
+      CurveSegment c = random_curve(random, bend, 0.02f, CurveSegment::ribbon | kCut);
+      for (vec4& p : c.points) p.w = 0.02f;
+      const Ray ray = ray_near(random, c, 0.01f);
+      const auto hit = intersect_curve(c, CurveRay(ray, 0, kInfinity));
+      if (!hit) continue;
+      const Ray onward{ray.at(hit->t), 0, random.direction(), kInfinity};
+      const vec3 chord = glm::normalize(vec3(c.points[3] - c.points[0]));
+      const float limit = bend > 0 ? 0.9f : 0.9997f;
+      if (std::abs(glm::dot(chord, glm::normalize(onward.direction))) > limit) continue;
+      ++left;
+      ASSERT_FALSE(intersect_curve(c, CurveRay(onward, 0, kInfinity)));
+    }
+  EXPECT_GT(left, 3000);
+}
+
+/// The share of the square [-1, 1]^2 that parallel rays along -z find covered.
+double coverage(const CurveSegment& c, int n) {
+  int hits = 0;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const vec2 p =
+          (2.0f * (vec2(static_cast<float>(x), static_cast<float>(y)) + 0.5f) / static_cast<float>(n)) - 1.0f;
+      hits += intersect_curve(c, CurveRay({vec3(p, 2), 0, {0, 0, -1}, kInfinity}, 0, kInfinity)).has_value();
+    }
+  return hits / static_cast<double>(n) / n;
+}
+
+TEST(Curves, RibbonsCoverTheirWidthTimesTheirLength) {
+  const std::uint32_t flags = CurveSegment::ribbon | kCut;
+  constexpr int kGrid = 600;
+  const double tolerance = 2 * 3.2 / kGrid / 4 * 1.5; // the outline's pixels
+  // Straight, tapered, and going away from the viewer: only its length is seen foreshortened.
+  const CurveSegment straight{{vec4(-0.7f, -0.4f, 0, 0.1f), vec4(-0.2333f, -0.1333f, -0.3f, 0.0833f),
+                               vec4(0.2333f, 0.1333f, -0.6f, 0.0667f), vec4(0.7f, 0.4f, -0.9f, 0.05f)},
+                              flags};
+  const double seen = std::hypot(1.4, 0.8);
+  EXPECT_NEAR(coverage(straight, kGrid), seen * 0.15 / 4, tolerance);
+  // A quarter of a circle of radius 0.8: a strip along an arc has the area of its width times the arc.
+  const float k = 0.8f * 0.5522848f;
+  const CurveSegment arc{
+      {vec4(0.8f, 0, 0, 0.1f), vec4(0.8f, k, 0, 0.1f), vec4(k, 0.8f, 0, 0.1f), vec4(0, 0.8f, 0, 0.1f)},
+      flags};
+  EXPECT_NEAR(coverage(arc, kGrid), 0.2 * 0.8 * std::numbers::pi / 2 / 4, tolerance);
+}
+
+/// All lanes of either implementation, and the tree, give what one curve after the other gives.
+TEST(CurvesStatistical, TreesFindWhatTestsOneByOneFind) {
+  Random random(fresh_seed());
+  SCOPED_TRACE(seed_note());
+  std::vector<CurveSegment> curves;
+  for (int i = 0; i < 60; ++i)
+    for (const CurveSegment& c : wavy_strand(random, 5, random.uniform() < 0.5f ? 0.02f : 0.003f,
+                                             i % 3 == 0 ? CurveSegment::ribbon : CurveSegment::tube))
+      curves.push_back(c);
+  TestScene other; // and other kinds among them
+  for (int i = 0; i < 20; ++i) other.spheres.push_back({random.in_cube(), 0.03f});
+  for (BuildQuality quality : {BuildQuality::fast, BuildQuality::high}) {
+    AccelInput input = other.input();
+    input.curves = curves;
+    const Accel accel = Accel::build(input, quality);
+    EXPECT_EQ(accel.stats().count(PrimitiveKind::curve), curves.size());
+    const Accel spheres = Accel::build(other.input(), quality);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 4000; ++i) {
+      Ray ray{random.in_cube(1.5f), 0, random.direction(), kInfinity};
+      if (i % 2 == 0)
+        ray = ray_near(random, curves[random.below(static_cast<std::uint32_t>(curves.size()))], 0.02f);
+      if (i % 3 == 0) ray.t_min = random.uniform(0, 2), ray.t_max = ray.t_min + random.uniform(0, 3);
+      rays.push_back(ray);
+    }
+    int hits = 0;
+    for (const Ray& ray : rays) {
+      std::optional<float> t;
+      std::uint32_t which = 0;
+      const CurveRay seen(ray, ray.t_min, ray.t_max);
+      for (std::uint32_t k = 0; k < curves.size(); ++k)
+        if (const auto hit = intersect_curve(curves[k], seen); hit && (!t || hit->t < *t))
+          t = hit->t, which = k;
+      const auto ball = spheres.intersect(ray);
+      const bool curve_first = t && (!ball || *t < ball->t);
+      const auto found = accel.intersect(ray);
+      ASSERT_EQ(found.has_value(), t || ball);
+      ASSERT_EQ(accel.occluded(ray), found.has_value());
+      if (!curve_first) continue;
+      ++hits;
+      ASSERT_EQ(found->kind, PrimitiveKind::curve);
+      ASSERT_EQ(found->primitive, which);
+      ASSERT_EQ(found->t, *t);
+      const auto alone = intersect_curve(curves[which], seen);
+      ASSERT_EQ(found->u, alone->u);
+      Hit portable;
+      ASSERT_TRUE(
+          (accel_detail::trace<simd::PortableFloat8, false>(*AccelAccess::tree(accel), ray, portable)));
+      ASSERT_EQ(portable.t, *t);
+      ASSERT_EQ(portable.primitive, which);
+    }
+    EXPECT_GT(hits, 600);
+    std::vector<const Ray*> together;
+    for (const Ray& ray : rays) together.push_back(&ray);
+    std::vector<Hit> batch(rays.size());
+    accel.intersect(together, batch);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const auto found = accel.intersect(rays[i]);
+      ASSERT_EQ(batch[i].t, found ? found->t : kInfinity);
+    }
+  }
+}
+
+TEST(Curves, DegenerateOnesAreLeftOut) {
+  std::vector<CurveSegment> curves(5);
+  curves[0].points = {vec4(0, 0, 0, 0), vec4(1, 0, 0, 0), vec4(2, 0, 0, 0), vec4(3, 0, 0, 0)}; // no width
+  curves[1].points = {vec4(0, 0, 0, 1), vec4(kInfinity, 0, 0, 1), vec4(2, 0, 0, 1), vec4(3, 0, 0, 1)};
+  curves[2].points = {vec4(0, 0, 0, std::nanf("")), vec4(1, 0, 0, 1), vec4(2, 0, 0, 1), vec4(3, 0, 0, 1)};
+  curves[3].points = {vec4(0, 0, 0, 1), vec4(0, 0, 0, 1), vec4(0, 0, 0, 1), vec4(0, 0, 0, 1)}; // a ball
+  curves[3].flags = kClosed;
+  curves[4].points = {vec4(9, 0, 0, 1), vec4(9, 0, 0, 0), vec4(9, 0, 0, 0), vec4(9, 0, 0, 1)};
+  AccelInput input;
+  input.curves = curves;
+  const Accel accel = Accel::build(input);
+  EXPECT_EQ(accel.stats().skipped, 3u);
+  const auto ball = accel.intersect({{0, 0, 5}, 0, {0, 0, -1}, kInfinity});
+  ASSERT_TRUE(ball);
+  EXPECT_NEAR(ball->t, 4, 1e-6f);
+  accel.intersect({{9, 0, 5}, 0, {0, 0, -1}, kInfinity}); // ends
+}
+
+} // namespace
+} // namespace candela::test
