@@ -48,7 +48,7 @@ struct Blinn {
       wi = to_side_of(wo, cosine_hemisphere_from_disc(u.disc));
     }
     const BsdfEval e = eval_pdf(wo, wi);
-    if (!(e.pdf > 0) || is_black(e.f_cos)) return std::nullopt;
+    if (!(e.pdf > 0)) return std::nullopt;
     return BsdfSample{wi, e.f_cos / e.pdf, e.pdf, false};
   }
 

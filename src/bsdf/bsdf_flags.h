@@ -13,6 +13,7 @@ enum class BsdfFlags : std::uint8_t {
   diffuse = 4,      ///< Lambertian lobes
   glossy = 8,       ///< other lobes with a density
   delta = 16,       ///< single directions
+  mixed = 32,       ///< several models, among which BsdfU::lobe chooses, of whatever lobes
 };
 
 constexpr BsdfFlags operator|(BsdfFlags a, BsdfFlags b) {
@@ -26,6 +27,8 @@ constexpr bool has_any(BsdfFlags a, BsdfFlags b) {
 
 /// Lambertian reflection or transmission, and nothing else.
 constexpr bool is_diffuse(BsdfFlags f) { return !has_any(f, BsdfFlags::glossy | BsdfFlags::delta); }
+/// Whether sampling looks at BsdfU::lobe.
+constexpr bool chooses_lobe(BsdfFlags f) { return !is_diffuse(f) || has_any(f, BsdfFlags::mixed); }
 /// Whether light from a lamp behind the surface may be scattered by a lobe that has a density.
 constexpr bool transmits_with_density(BsdfFlags f) {
   return has_any(f, BsdfFlags::transmission) && has_any(f, BsdfFlags::diffuse | BsdfFlags::glossy);

@@ -47,8 +47,9 @@ struct BsdfEval {
 /// - pdf: density in 1/sr with which sample() gives wi by a lobe without delta. Over the sphere it
 ///   integrates to 1 - delta_probability(wo), less the probability that sample() fails.
 /// - eval_pdf: both at once.
-/// - sample: a delta lobe exactly where u.lobe < delta_probability(wo). Nothing where the sample carries no
-///   light (absorbed, or a direction below the surface): it counts as a sample of value 0.
+/// - sample: a delta lobe exactly where u.lobe < delta_probability(wo). Nothing where it finds no direction
+///   that pdf() knows, or a delta lobe that carries no light: it counts as a sample of value 0. Directions of
+///   a density are given even if no light comes from there, for in a mixture another model may have some.
 /// - delta_probability: with which sample() takes a delta lobe (0: there is none, 1: there is nothing else).
 /// - flags: what it does at all, see BsdfFlags.
 /// - lobe_proxy: roughly how much it reflects from where, for choosing a light.

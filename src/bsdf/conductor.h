@@ -41,7 +41,7 @@ struct Conductor {
     const vec3 wi = 2 * glm::dot(w, h) * h - w;
     if (!(wi.z > 0)) return std::nullopt;
     const BsdfEval e = above(w, wi, glm::normalize(w + wi));
-    if (!(e.pdf > 0) || is_black(e.f_cos)) return std::nullopt;
+    if (!(e.pdf > 0)) return std::nullopt;
     return BsdfSample{to_side_of(wo, wi), e.f_cos / e.pdf, e.pdf, false};
   }
 

@@ -19,7 +19,7 @@ struct Diffuse {
   std::optional<BsdfSample> sample(vec3 wo, BsdfU u) const {
     vec3 wi = to_side_of(wo, cosine_hemisphere_from_disc(u.disc));
     float cosine_pdf = pdf(wo, wi);
-    if (!(cosine_pdf > 0) || is_black(reflectance)) return std::nullopt;
+    if (!(cosine_pdf > 0)) return std::nullopt;
     return BsdfSample{wi, reflectance, cosine_pdf, false};
   }
   float delta_probability(vec3) const { return 0; }

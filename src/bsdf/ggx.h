@@ -52,7 +52,7 @@ struct Ggx {
     vec3 wi = 2 * glm::dot(w, h) * h - w;
     if (!(wi.z > 0)) return std::nullopt;
     BsdfEval e = eval_pdf(w, wi);
-    if (!(e.pdf > 0) || is_black(e.f_cos)) return std::nullopt;
+    if (!(e.pdf > 0)) return std::nullopt;
     return BsdfSample{to_side_of(wo, wi), e.f_cos / e.pdf, e.pdf, false};
   }
 

@@ -40,7 +40,7 @@ struct OrenNayar {
   BsdfEval eval_pdf(vec3 wo, vec3 wi) const { return {eval(wo, wi), pdf(wo, wi)}; }
 
   std::optional<BsdfSample> sample(vec3 wo, BsdfU u) const {
-    if (wo.z == 0 || is_black(reflectance)) return std::nullopt;
+    if (wo.z == 0) return std::nullopt;
     const vec3 w = up(wo);
     const Sampling sampling(w, roughness);
     const vec3 wi = sampling.sample(u);

@@ -47,7 +47,7 @@ struct Plastic {
     }
     if (!(wi.z > 0)) return std::nullopt;
     const BsdfEval e = above(w, wi, reflected);
-    if (!(e.pdf > 0) || is_black(e.f_cos)) return std::nullopt;
+    if (!(e.pdf > 0)) return std::nullopt;
     return BsdfSample{to_side_of(wo, wi), e.f_cos / e.pdf, e.pdf, false};
   }
 

@@ -103,7 +103,7 @@ private:
 
   /// Masking may leave almost nothing of the light, but the density does not know that.
   std::optional<BsdfSample> made(vec3 wi, BsdfEval e, float eta) const {
-    if (!(e.pdf > 0) || (eta != 1 && is_black(transmittance))) return std::nullopt;
+    if (!(e.pdf > 0)) return std::nullopt;
     return BsdfSample{wi, e.f_cos / e.pdf, e.pdf, false, eta};
   }
 };

@@ -67,7 +67,7 @@ struct Sheen {
     const vec3 wi =
         to_side_of(wo, uniform ? uniform_cone_from_disc(u.disc, 1) : cosine_hemisphere_from_disc(u.disc));
     const BsdfEval e = eval_pdf(wo, wi);
-    if (!(e.pdf > 0) || is_black(e.f_cos)) return std::nullopt;
+    if (!(e.pdf > 0)) return std::nullopt;
     return BsdfSample{wi, e.f_cos / e.pdf, e.pdf, false};
   }
 

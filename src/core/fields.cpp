@@ -64,12 +64,12 @@ std::string angle_text(float radians_value) {
   return text;
 }
 
+bool is_int(FieldType type) { return type == FieldType::integer || type == FieldType::material; }
+
 bool in_range(const FieldInfo& field, double value) {
   // Infinity passes only where the table leaves that side open. Reals are compared as the floats that they
   // become: 0.1 must pass a limit of 0.1, though in float it is a little more.
-  auto stored = [&](double x) {
-    return field.type == FieldType::integer ? x : static_cast<double>(static_cast<float>(x));
-  };
+  auto stored = [&](double x) { return is_int(field.type) ? x : static_cast<double>(static_cast<float>(x)); };
   return (field.above_minimum ? stored(value) > stored(field.minimum)
                               : stored(value) >= stored(field.minimum)) &&
          stored(value) <= stored(field.maximum);
@@ -105,6 +105,7 @@ std::string field_to_text(const FieldInfo& field, const void* address) {
   case FieldType::real: return fmt::format("{}", as<float>(address));
   case FieldType::angle: return angle_text(as<float>(address));
   case FieldType::choice: return std::string(field.choices[static_cast<std::size_t>(load_choice(address))]);
+  case FieldType::material: return as<int>(address) < 0 ? "none" : fmt::format("{}", as<int>(address));
   case FieldType::point:
   case FieldType::color: {
     const vec3& v = as<vec3>(address);
@@ -131,9 +132,11 @@ void field_from_text(const FieldInfo& field, void* address, std::string_view tex
     else
       throw bad_value(field, text);
     return;
+  case FieldType::material:
   case FieldType::integer: {
-    int value = 0;
-    if (!parse_number(text, value)) throw bad_value(field, text);
+    int value = -1;
+    if (!(field.type == FieldType::material && text == "none") && !parse_number(text, value))
+      throw bad_value(field, text);
     assign(value);
     return;
   }
@@ -176,7 +179,8 @@ std::string field_problem(const FieldInfo& field, const void* address) {
   };
   switch (field.type) {
   case FieldType::boolean: return {};
-  case FieldType::integer: return check(as<int>(address));
+  case FieldType::integer:
+  case FieldType::material: return check(as<int>(address));
   case FieldType::real: return check(static_cast<double>(as<float>(address)));
   case FieldType::angle:
     // Compared in float: 180 degrees must pass though pi in float is a little more than pi.
@@ -198,7 +202,8 @@ std::string field_problem(const FieldInfo& field, const void* address) {
 bool field_equal(const FieldInfo& field, const void* a, const void* b) {
   switch (field.type) {
   case FieldType::boolean: return as<bool>(a) == as<bool>(b);
-  case FieldType::integer: return as<int>(a) == as<int>(b);
+  case FieldType::integer:
+  case FieldType::material: return as<int>(a) == as<int>(b);
   case FieldType::choice: return load_choice(a) == load_choice(b);
   case FieldType::real:
   case FieldType::angle: return as<float>(a) == as<float>(b);
@@ -211,7 +216,8 @@ bool field_equal(const FieldInfo& field, const void* a, const void* b) {
 void field_copy(const FieldInfo& field, void* to, const void* from) {
   switch (field.type) {
   case FieldType::boolean: *static_cast<bool*>(to) = as<bool>(from); return;
-  case FieldType::integer: *static_cast<int*>(to) = as<int>(from); return;
+  case FieldType::integer:
+  case FieldType::material: *static_cast<int*>(to) = as<int>(from); return;
   case FieldType::choice: std::memcpy(to, from, sizeof(int)); return;
   case FieldType::real:
   case FieldType::angle: *static_cast<float*>(to) = as<float>(from); return;
@@ -222,6 +228,7 @@ void field_copy(const FieldInfo& field, void* to, const void* from) {
 
 std::string field_domain(const FieldInfo& field) {
   if (field.type == FieldType::boolean) return "true or false";
+  if (field.type == FieldType::material) return "a material of the scene, by name or index";
   if (field.type == FieldType::choice) return fmt::format("one of {}", fmt::join(field.choices, ", "));
   std::string_view what = field.type == FieldType::integer ? "an integer"
                           : field.type == FieldType::color ? "a colour (r g b)"

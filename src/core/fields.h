@@ -11,13 +11,14 @@
 namespace candela {
 
 enum class FieldType {
-  boolean, ///< bool
-  integer, ///< int
-  real,    ///< float
-  angle,   ///< float, radians in the struct, degrees in files and panels
-  choice,  ///< an enum whose underlying type is int; the value indexes `choices`
-  point,   ///< vec3, a position or a direction
-  color,   ///< vec3, linear Rec. 709
+  boolean,  ///< bool
+  integer,  ///< int
+  real,     ///< float
+  angle,    ///< float, radians in the struct, degrees in files and panels
+  choice,   ///< an enum whose underlying type is int; the value indexes `choices`
+  point,    ///< vec3, a position or a direction
+  color,    ///< vec3, linear Rec. 709
+  material, ///< int, which of the scene's materials, by index; -1: none. Files give its name
 };
 
 /// What an edit of the field invalidates.

@@ -103,7 +103,10 @@ inline Spectrum bsdf_albedo(const Bsdf& bsdf) {
 inline void set_outside_ior(Bsdf& bsdf, float outside) {
   visit_variant(
       [&](auto& model) {
-        if constexpr (requires { model.with_outside_ior(outside); }) model = model.with_outside_ior(outside);
+        if constexpr (requires { model.with_outside_ior(outside); })
+          model = model.with_outside_ior(outside);
+        else if constexpr (requires { model.set_outside_ior(outside); })
+          model.set_outside_ior(outside);
       },
       bsdf);
 }
@@ -123,7 +126,8 @@ inline bool is_anisotropic(const Bsdf& bsdf) {
 inline bool has_tangent(const Bsdf& bsdf) {
   return visit_variant(
       [](const auto& model) {
-        return requires { model.axis; };
+        return requires { model.axis; }
+        || std::is_same_v<std::decay_t<decltype(model)>, Blend>;
       },
       bsdf);
 }
@@ -133,7 +137,10 @@ inline void set_tangent(Bsdf& bsdf, vec2 tangent) {
   if (!(length > 0)) return;
   visit_variant(
       [&](auto& model) {
-        if constexpr (requires { model.axis; }) model.axis = tangent / length;
+        if constexpr (requires { model.axis; })
+          model.axis = tangent / length;
+        else if constexpr (requires { model.set_tangent(tangent); })
+          model.set_tangent(tangent);
       },
       bsdf);
 }

@@ -87,6 +87,9 @@ std::string texture_use_problem(const MaterialField& row, const ParameterRef& pa
 
 const FieldInfo& material_type_field() { return kTypeField; }
 std::span<const std::string_view> material_type_names() { return kTypeNames; }
+std::span<const std::string_view> scattering_type_names() {
+  return std::span(kTypeNames).first<std::variant_size_v<ScatteringModel>>();
+}
 
 Material default_material(int type) { return with_model<Material>(type); }
 

@@ -38,10 +38,15 @@ struct MaterialField : Field<Material> {
 /// A choice over an int, the type by its index in the list: for files and panels.
 const FieldInfo& material_type_field();
 std::span<const std::string_view> material_type_names();
+/// The first of them, those of ScatteringModel.
+std::span<const std::string_view> scattering_type_names();
 inline int material_type(const Material& material) { return static_cast<int>(material.model.index()); }
 inline std::string_view material_type_name(const Material& material) {
   return material_type_names()[material.model.index()];
 }
+
+/// Whether surfaces of it are not there, but for the body that they bound.
+inline bool is_null(const Material& material) { return std::holds_alternative<NullMaterial>(material.model); }
 
 /// A material of the type with default values.
 Material default_material(int type);

@@ -42,7 +42,7 @@ const ChoiceFields& choice_fields() {
     ChoiceFields fields;
     [&]<class... Models>(std::type_identity<std::variant<Models...>>) {
       (fields.add<Models>(std::make_index_sequence<Models::rows().size()>()), ...);
-    }(std::type_identity<MaterialModel>());
+    }(std::type_identity<ScatteringModel>());
     return fields;
   }();
   return all;

@@ -1,6 +1,6 @@
 #pragma once
-// A material of any type, with one value for each key of any type, for the settings override.* and the lab's
-// options.
+// A material of any type that is complete by itself, with one value for each key of any type, for the
+// settings override.* and the lab's options.
 
 #include "materials/material.h"
 
@@ -34,12 +34,12 @@ struct TupleOf<std::variant<Models...>> {
 
 } // namespace detail
 
-inline constexpr std::size_t kMaterialKeyCount = detail::TupleOf<MaterialModel>::key_count();
+inline constexpr std::size_t kMaterialKeyCount = detail::TupleOf<ScatteringModel>::key_count();
 
 struct MaterialChoice {
-  int type = 0; ///< index into material_type_names()
+  int type = 0; ///< index into scattering_type_names()
   /// Of a key, the value is that of the first model in the list which has it.
-  detail::TupleOf<MaterialModel>::Tuple models;
+  detail::TupleOf<ScatteringModel>::Tuple models;
   bool operator==(const MaterialChoice&) const = default;
 };
 

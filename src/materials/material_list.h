@@ -2,6 +2,7 @@
 // The list of materials. A new one is a file of this folder, with its closure if that is no closure of bsdf/,
 // and its name here; files, panels, settings, the lab and the tables of the documents follow from its rows.
 
+#include "materials/blend_material.h"
 #include "materials/blinn_material.h"
 #include "materials/conductor_material.h"
 #include "materials/cook_torrance_material.h"
@@ -10,6 +11,7 @@
 #include "materials/ggx_material.h"
 #include "materials/hair_material.h"
 #include "materials/mirror_material.h"
+#include "materials/null_material.h"
 #include "materials/open_pbr_material.h"
 #include "materials/oren_nayar_material.h"
 #include "materials/phong_material.h"
@@ -18,14 +20,26 @@
 #include "materials/rough_dielectric_material.h"
 #include "materials/sheen_material.h"
 #include "materials/thin_dielectric_material.h"
+#include "materials/two_sided_material.h"
 #include "materials/ward_material.h"
 
 namespace candela {
 
-using MaterialModel =
+/// Those that are complete by themselves, so that one may stand for all surfaces (override.brdf).
+using ScatteringModel =
     std::variant<DiffuseMaterial, PhongMaterial, GgxMaterial, MirrorMaterial, DielectricMaterial,
                  ConductorMaterial, PlasticMaterial, PrincipledMaterial, OpenPbrMaterial,
                  CookTorranceMaterial, OrenNayarMaterial, WardMaterial, RoughDielectricMaterial,
                  BlinnMaterial, SheenMaterial, ThinDielectricMaterial, HairMaterial>;
+
+namespace detail {
+
+template <class... More, class... Models>
+std::variant<Models..., More...> with_more(const std::variant<Models...>&);
+
+} // namespace detail
+
+using MaterialModel =
+    decltype(detail::with_more<BlendMaterial, TwoSidedMaterial, NullMaterial>(ScatteringModel()));
 
 } // namespace candela

@@ -1,5 +1,7 @@
 #include "scene/document.h"
 
+#include "materials/material_parts.h"
+
 #include <fmt/format.h>
 
 #include <set>
@@ -175,6 +177,8 @@ std::string document_problem(const Document& document) {
     if (auto p = material_problem(scene.materials[i], scene.textures.size()); !p.empty())
       return fmt::format("materials[{}].{}", i, p);
   }
+  if (auto p = parts_problem(scene.materials))
+    return fmt::format("materials[{}].{}: {}; {}", p->material, p->key, p->cause, p->remedy);
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     if (!scene.textures[i]) return fmt::format("textures[{}]: there is none", i);
     if (auto p = texture_problem(*scene.textures[i]); !p.empty()) return fmt::format("textures[{}].{}", i, p);

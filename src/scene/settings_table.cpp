@@ -24,11 +24,11 @@ constexpr std::string_view kHeuristics[] = {"balance", "power"};
 constexpr std::string_view kDirections[] = {"uniform", "cosine", "bsdf"};
 constexpr std::string_view kRoulette[] = {"off", "throughput", "fixed"};
 constexpr std::string_view kComponents[] = {"all", "emitted", "direct", "indirect"};
-/// "none", then the materials' types.
+/// "none", then the materials' types, without those that name other materials.
 std::span<const std::string_view> override_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> all{"none"};
-    all.insert(all.end(), material_type_names().begin(), material_type_names().end());
+    all.insert(all.end(), scattering_type_names().begin(), scattering_type_names().end());
     return all;
   }();
   return names;

@@ -22,6 +22,7 @@ void change(const Field<T>& row, T& owner) {
   case FieldType::choice:
     field_from_text(row, at, field_to_text(row, at) == row.choices[0] ? row.choices[1] : row.choices[0]);
     break;
+  case FieldType::material: field_from_text(row, at, before == "none" ? "0" : "none"); break;
   case FieldType::point:
   case FieldType::color:
     field_from_text(row, at, before == "0.25 0.5 0.75" ? "0.5 0.25 0.75" : "0.25 0.5 0.75");
@@ -91,7 +92,7 @@ TEST(SettingsTable, EveryChoiceIsTheEnumsName) {
     apply_setting(d, std::string("path.light_sampling=") + text);
     EXPECT_EQ(d.settings.path.light_sampling, value);
   }
-  for (std::string_view type : material_type_names()) {
+  for (std::string_view type : scattering_type_names()) {
     apply_setting(d, std::string("override.brdf=") + std::string(type));
     EXPECT_EQ(material_type_name(overriding_material(d.settings.override_brdf)), type);
   }

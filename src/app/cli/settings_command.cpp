@@ -34,6 +34,7 @@ std::string_view type_name(FieldType type) {
   case FieldType::choice: return "choice";
   case FieldType::point: return "point";
   case FieldType::color: return "color";
+  case FieldType::material: return "material";
   }
   return "";
 }

@@ -27,8 +27,9 @@ MaterialChoice lab_material() {
 
 std::span<const Field<MaterialChoice>> scattering_rows() {
   static const std::vector<Field<MaterialChoice>> rows = [] {
-    std::vector<Field<MaterialChoice>> out = {
-        {material_type_field(), [](MaterialChoice& m) -> void* { return &m.type; }}};
+    FieldInfo type = material_type_field();
+    type.choices = scattering_type_names(); // the others depend on a scene
+    std::vector<Field<MaterialChoice>> out = {{type, [](MaterialChoice& m) -> void* { return &m.type; }}};
     for (const auto& row : material_choice_fields())
       if (is_parameter_key(row.key)) out.push_back(row);
     return out;

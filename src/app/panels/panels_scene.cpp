@@ -3,6 +3,7 @@
 #include "app/panels/panel_list.h"
 #include "app/panels/texture_picker.h"
 #include "app/ui/item_list.h"
+#include "materials/material_parts.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -77,8 +78,16 @@ void material_type_of(Ui& ui, ViewerState& state, std::size_t index) {
   int type = material_type(material), initial = index < home.size() ? material_type(home[index]) : type;
   FieldContext context;
   context.initial = &initial;
-  state.edited |= ui.field("material.type", material_type_field(), &type, context);
+  if (!ui.field("material.type", material_type_field(), &type, context)) return;
+  const Material before = material;
   change_type(material, type);
+  if (const auto problem = parts_problem(state.document.scene.materials)) { // others name it
+    state.fail(ErrorCause::material, fmt::format("{}: {}", problem->cause, problem->remedy));
+    material = before;
+    return;
+  }
+  state.settle(ErrorCause::material);
+  state.edited = true;
 }
 
 } // namespace

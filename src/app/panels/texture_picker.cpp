@@ -1,5 +1,6 @@
 #include "app/panels/texture_picker.h"
 
+#include "app/panels/material_picker.h"
 #include "core/color.h"
 
 #include <fmt/format.h>
@@ -145,6 +146,10 @@ void material_field(Ui& ui, ViewerState& state, std::size_t index, const Materia
                     const FieldContext& context) {
   Material& material = state.document.scene.materials[index];
   const std::string name = fmt::format("{}{}", kPrefix, row.key);
+  if (row.type == FieldType::material) {
+    material_part_field(ui, state, index, row);
+    return;
+  }
   if (row.parameter == nullptr) {
     state.edited |= ui.field(name, row, row.address(material), context);
     return;

@@ -29,7 +29,7 @@ struct PictureRegion {
 enum class Question { none, quit, reload, replace };
 
 /// The subject of an error, which is cleared when the action succeeds, is retried or is cancelled.
-enum class ErrorCause { none, open, save, picture, camera, render, preferences };
+enum class ErrorCause { none, open, save, picture, camera, material, render, preferences };
 
 /// The parameter that gets a dropped or opened texture.
 struct TextureTarget {

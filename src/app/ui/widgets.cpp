@@ -35,12 +35,15 @@ std::string_view consequence(Invalidates invalidates) {
 std::string_view how_to_edit(FieldType type) {
   switch (type) {
   case FieldType::boolean:
+  case FieldType::material:
   case FieldType::choice: return "Double-click the name to reset.";
   default: return "Ctrl+click to type, double-click to reset.";
   }
 }
 
 } // namespace
+
+std::string field_label(const FieldInfo& row) { return humanised(row.key); }
 
 std::string field_tooltip(const FieldInfo& row, const void* initial) {
   std::string text = fmt::format("{}\n{}.\n{}.", row.key, row.help, field_domain(row));
@@ -278,6 +281,7 @@ bool Ui::field(const std::string& name, const FieldInfo& row, void* value, const
     ImGui::SameLine(column);
     vector_field(name, row, *static_cast<vec3*>(edited), context, reset);
     break;
+  case FieldType::material: break; // panels draw these, for they know the scene
   }
   ImGui::PopID();
   if (reset && context.initial != nullptr) field_copy(row, edited, context.initial);

@@ -122,6 +122,8 @@ private:
 };
 
 /// The text of a field's tooltip: key, help, domain, what it restarts, how to edit.
+/// Its key in words, as panels show it.
+std::string field_label(const FieldInfo& row);
 std::string field_tooltip(const FieldInfo& row, const void* initial);
 
 } // namespace candela

@@ -113,6 +113,10 @@ int SceneBuilder::add_material(Material material) {
   return static_cast<int>(scene_.materials.size()) - 1;
 }
 
+void SceneBuilder::set_material_part(int material, const MaterialField& row, int part) {
+  *static_cast<int*>(row.address(scene_.materials[static_cast<std::size_t>(material)])) = part;
+}
+
 int add_mtl_material(SceneBuilder& builder, const MtlMaterial& source, const std::string& name) {
   Material material = source.material;
   material.name = name;

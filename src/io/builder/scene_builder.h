@@ -55,6 +55,8 @@ public:
   std::shared_ptr<const Panorama> panorama(const std::vector<FoundFile>& files);
 
   int add_material(Material material);
+  /// Sets a row of a material that names another one.
+  void set_material_part(int material, const MaterialField& row, int part);
 
   /// Sets the transform of an instance, which has its shape, such that world_from_object applies to the
   /// coordinates of the shape's file (Mesh::origin). Warns if floats cannot represent the mesh's shape there.

@@ -133,12 +133,13 @@ private:
     return out;
   }
 
-  std::vector<std::string> materials() const {
+  std::vector<std::string> materials() {
+    count_names();
+    const JsonReferences references{[&](int i) { return texture_reference(i); },
+                                    [&](int i) { return material_reference(i); }};
     std::vector<std::string> out;
     for (const Material& material : scene_.materials)
-      out.push_back(fmt::format(
-          "{{{}}}",
-          joined(json_material_members(material, [&](int i) { return texture_reference(i); }), ", ")));
+      out.push_back(fmt::format("{{{}}}", joined(json_material_members(material, references), ", ")));
     return out;
   }
 
@@ -193,7 +194,6 @@ private:
   }
 
   std::vector<std::string> instances() {
-    count_names();
     std::vector<std::string> out;
     for (const Instance& instance : scene_.instances) {
       std::vector<std::string> members;

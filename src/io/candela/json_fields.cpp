@@ -34,6 +34,7 @@ std::optional<std::string> text_of(const FieldInfo& field, JsonValue value) {
   switch (field.type) {
   case FieldType::boolean: return if_type(JsonType::boolean);
   case FieldType::integer:
+  case FieldType::material:
   case FieldType::real:
   case FieldType::angle: return if_type(JsonType::number);
   case FieldType::choice:

@@ -59,11 +59,13 @@ void read_textured(JsonValue object, const MaterialField& row, const ParameterRe
 
 /// Reads a value of the material's type; false if the type has no such key.
 bool read_value(Material& material, JsonValue key, JsonValue value, const std::string& element,
-                const JsonTextureNames& textures) {
+                const JsonTextureNames& textures, std::vector<JsonMaterialPart>& parts) {
   const MaterialField* row = find_material_field(material_type(material), key.string());
   if (row == nullptr) return false;
   const std::string place = fmt::format("{}.{}", element, key.string());
-  if (row->parameter != nullptr && value.type() == JsonType::object)
+  if (row->type == FieldType::material)
+    parts.push_back({row, value, place});
+  else if (row->parameter != nullptr && value.type() == JsonType::object)
     read_textured(value, *row, row->parameter(material), place, textures);
   else
     read_field(*row, row->address(material), value, place);
@@ -114,7 +116,8 @@ std::string textured_json(const MaterialField& row, const ParameterRef& paramete
 
 } // namespace
 
-Material read_json_material(JsonValue object, const std::string& element, const JsonTextureNames& textures) {
+Material read_json_material(JsonValue object, const std::string& element, const JsonTextureNames& textures,
+                            std::vector<JsonMaterialPart>& parts) {
   int type = 0;
   for (auto [key, value] : object.members()) // first, because the defaults depend on it
     if (key.string() == "type") read_field(material_type_field(), &type, value, element + ".type");
@@ -123,10 +126,11 @@ Material read_json_material(JsonValue object, const std::string& element, const 
     if (key.string() == "type") continue;
     if (key.string() == "name")
       material.name = read_string(value, element + ".name");
-    else if (!read_value(material, key, value, element, textures) &&
+    else if (!read_value(material, key, value, element, textures, parts) &&
              !read_old_texture(material, key, value, element, textures) &&
              !read_for_other_types(kMaterialTypeCount, default_material, [&](Material& other) {
-               return read_value(other, key, value, element, textures);
+               std::vector<JsonMaterialPart> ignored;
+               return read_value(other, key, value, element, textures, ignored);
              })) {
       std::vector<std::string_view> known = {"name", "type", kOldTexture, kOldScale, kOldOffset};
       for (int t = 0; t < kMaterialTypeCount; ++t)
@@ -138,8 +142,7 @@ Material read_json_material(JsonValue object, const std::string& element, const 
   return material;
 }
 
-std::vector<std::string> json_material_members(const Material& material,
-                                               const std::function<std::string(int)>& reference) {
+std::vector<std::string> json_material_members(const Material& material, const JsonReferences& references) {
   auto& m = const_cast<Material&>(material);
   const int type = material_type(material);
   Material defaults = default_material(type);
@@ -148,9 +151,13 @@ std::vector<std::string> json_material_members(const Material& material,
   if (type != 0) members.push_back(fmt::format("\"type\": {}", json_quoted(material_type_name(material))));
   for (const MaterialField& row : material_fields(type)) {
     if (row.parameter != nullptr && row.parameter(m).use().texture >= 0)
-      members.push_back(fmt::format("\"{}\": {}", row.key, textured_json(row, row.parameter(m), reference)));
+      members.push_back(
+          fmt::format("\"{}\": {}", row.key, textured_json(row, row.parameter(m), references.texture)));
     else if (!field_equal(row, row.address(m), row.address(defaults)))
-      members.push_back(fmt::format("\"{}\": {}", row.key, field_json(row, row.address(m))));
+      members.push_back(fmt::format("\"{}\": {}", row.key,
+                                    row.type == FieldType::material
+                                        ? references.material(*static_cast<int*>(row.address(m)))
+                                        : field_json(row, row.address(m))));
   }
   return members;
 }

@@ -1,7 +1,7 @@
 #include "io/candela/json_material_list.h"
 
-#include "io/candela/json_material.h"
 #include "io/candela/json_texture.h"
+#include "materials/material_parts.h"
 
 namespace candela {
 
@@ -21,13 +21,36 @@ void JsonMaterialList::read_materials(JsonValue array) {
   const JsonTextureNames textures = {
       [&](JsonValue value, const std::string& element) { return texture_file_or_index(value, element); },
       [&](JsonValue value, const std::string& element) { return texture_of(value, element); }};
+  std::vector<std::pair<int, std::vector<JsonMaterialPart>>> combined; // by the index of the material
   source_.each_object(array, "materials", [&](JsonValue object, const std::string& element) {
-    const Material material = read_json_material(object, element, textures);
+    std::vector<JsonMaterialPart> parts;
+    const Material material = read_json_material(object, element, textures, parts);
     int index = source_.builder.add_material(material);
     auto [same_name, is_new] = material_by_name_.try_emplace(material.name, index);
     if (!is_new) same_name->second = kAmbiguous;
     ++material_count_;
+    if (!parts.empty()) combined.emplace_back(index, std::move(parts));
   });
+  // Now that all names are known.
+  for (const auto& [index, parts] : combined) set_parts(index, parts);
+  if (!combined.empty()) check_parts(combined);
+}
+
+void JsonMaterialList::set_parts(int material, const std::vector<JsonMaterialPart>& parts) {
+  for (const JsonMaterialPart& part : parts)
+    source_.builder.set_material_part(material, *part.row, material_of(part.value, part.element));
+}
+
+void JsonMaterialList::check_parts(
+    const std::vector<std::pair<int, std::vector<JsonMaterialPart>>>& combined) const {
+  const auto problem = parts_problem(source_.builder.scene().materials);
+  if (!problem) return;
+  for (const auto& [index, parts] : combined) {
+    if (index != static_cast<int>(problem->material)) continue;
+    for (const JsonMaterialPart& part : parts)
+      if (part.row->key == problem->key)
+        throw input_error(part.value.where(), part.element, problem->cause, problem->remedy);
+  }
 }
 
 int JsonMaterialList::texture_file_or_index(JsonValue value, const std::string& element) const {

@@ -1,6 +1,7 @@
 #pragma once
 // "textures" and "materials" of Candela JSON, and references to their entries.
 
+#include "io/candela/json_material.h"
 #include "io/candela/json_source.h"
 
 #include <map>
@@ -20,6 +21,9 @@ public:
   int material_of(JsonValue value, const std::string& element) const;
 
 private:
+  /// Sets the parts of the material of that index.
+  void set_parts(int material, const std::vector<JsonMaterialPart>& parts);
+  void check_parts(const std::vector<std::pair<int, std::vector<JsonMaterialPart>>>& parts) const;
   int texture_file_or_index(JsonValue value, const std::string& element) const;
   int texture_of(JsonValue value, const std::string& element) const;
 

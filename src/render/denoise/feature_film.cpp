@@ -50,11 +50,13 @@ public:
         return seen;
       }
       SurfaceInteraction surface = scene_.geometry().surface(ray, hit);
-      const SurfaceMaterial& material = scene_.material(surface.material);
       vec3 wo = -ray.direction;
-      auto texture_at = [&] { return texture_point(scene_.geometry(), ray, hit, cone); };
-      Bsdf bsdf = material.textured != nullptr ? evaluate_bsdf(material, texture_at()) : material.bsdf;
       const bool outside = glm::dot(surface.geometric_normal, wo) > 0;
+      const SurfaceMaterial& material = facing(scene_.material(surface.material), outside);
+      auto texture_at = [&] { return texture_point(scene_.geometry(), ray, hit, cone); };
+      BlendArena blends;
+      Bsdf bsdf =
+          material.textured != nullptr ? evaluate_bsdf(material, texture_at(), blends) : material.bsdf;
       set_outside(scene_, material, passage.media, outside, bsdf);
       Basis frame = Basis::from_normal(surface.shading_normal);
       vec3 wo_local = frame.to_local(wo);

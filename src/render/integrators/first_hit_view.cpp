@@ -38,10 +38,13 @@ Spectrum first_hit_value(const RenderScene& scene, Ray ray, const MediumStack& m
   auto uv = [&] { return scene.geometry().uv(ray, hit); };
   switch (view) {
   case View::albedo: {
-    const SurfaceMaterial& material = scene.material(surface.material);
-    Bsdf bsdf = material.textured ? evaluate_bsdf(material, texture_point(scene.geometry(), ray, hit, cone))
-                                  : material.bsdf;
-    set_outside(scene, material, passage.media, glm::dot(surface.geometric_normal, ray.direction) < 0, bsdf);
+    const bool outside = glm::dot(surface.geometric_normal, ray.direction) < 0;
+    const SurfaceMaterial& material = facing(scene.material(surface.material), outside);
+    BlendArena blends;
+    Bsdf bsdf = material.textured
+                    ? evaluate_bsdf(material, texture_point(scene.geometry(), ray, hit, cone), blends)
+                    : material.bsdf;
+    set_outside(scene, material, passage.media, outside, bsdf);
     return bsdf_albedo(bsdf);
   }
   case View::normal: return towards_viewer(surface.shading_normal, surface, ray);

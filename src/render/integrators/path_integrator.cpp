@@ -267,7 +267,7 @@ bool PathTracer::sample_bsdfs(std::uint32_t branch, int depth) {
   Lanes<float> lobe_u{}, roulette_u;
   const std::span<const Sampler::Draw> all(draws.data(), count);
   Sampler::get_2d(all, Dimension::bsdf_direction, disc);
-  if (!is_diffuse(scattering_flags_)) Sampler::get_1d(all, Dimension::bsdf_lobe, lobe_u);
+  if (chooses_lobe(scattering_flags_)) Sampler::get_1d(all, Dimension::bsdf_lobe, lobe_u);
   Sampler::get_1d(all, Dimension::russian_roulette, roulette_u);
   sample_uniform_discs({disc.data(), count});
 

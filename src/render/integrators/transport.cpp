@@ -100,7 +100,7 @@ bool detail::is_occluded_by_unhidden(const RenderScene& scene, Ray ray, MediumSt
     const auto hit = scene.geometry().accel().intersect(ray);
     if (!hit) return false;
     const SurfaceMaterial& material = scene.material(scene.geometry().material_of(*hit));
-    if (!is_hidden(scene, material, media, ray, *hit)) return true;
+    if (!material.invisible && !is_hidden(scene, material, media, ray, *hit)) return true;
     const SurfaceInteraction s = scene.geometry().surface(ray, *hit);
     media.cross(material.media, glm::dot(s.geometric_normal, ray.direction) < 0);
     ray.origin = offset_ray_origin(s.position, s.position_error, s.geometric_normal, ray.direction);

@@ -64,10 +64,12 @@ bool is_occluded_by_unhidden(const RenderScene& scene, Ray ray, MediumStack medi
 
 } // namespace detail
 
-/// Whether a ray of unit direction that starts in `media` meets any surface that those do not hide.
+/// Whether a ray of unit direction that starts in `media` meets any surface that those do not hide, and that
+/// is no invisible one.
 inline bool is_occluded(const RenderScene& scene, const Ray& ray, const MediumStack& media,
                         RayCounts& counts) {
-  if (scene.has_priorities()) return detail::is_occluded_by_unhidden(scene, ray, media, counts);
+  if (scene.has_priorities() || scene.has_invisible())
+    return detail::is_occluded_by_unhidden(scene, ray, media, counts);
   ++counts.shadow;
   return scene.geometry().accel().occluded(ray);
 }
@@ -123,7 +125,9 @@ struct Vertex {
 
   /// Made in place: copies of what has just been written by parts stall the processor.
   Vertex(const RenderScene& scene, const Ray& ray, const Hit& hit)
-      : surface(scene.geometry().surface(ray, hit)), material(&scene.material(surface.material)),
+      : surface(scene.geometry().surface(ray, hit)),
+        material(
+            &facing(scene.material(surface.material), glm::dot(ray.direction, surface.geometric_normal) < 0)),
         wo(-ray.direction), side(glm::dot(wo, surface.geometric_normal)),
         frame(Basis::from_normal(visible_normal(
             material->has_relief() ? relief_normal(*material, scene.geometry(), ray, hit, surface)

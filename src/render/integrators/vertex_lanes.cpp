@@ -42,6 +42,12 @@ struct TriangleLanes {
   }
 }
 
+/// The side of a material that a ray of that direction sees, of one that has two.
+[[gnu::noinline]] const SurfaceMaterial& seen_side(const SurfaceMaterial& material, const Geometry& geometry,
+                                                   const Ray& ray, const Hit& hit) {
+  return facing(material, glm::dot(ray.direction, geometry.surface(ray, hit).geometric_normal) < 0);
+}
+
 /// Tells anisotropic closures where their surface's tangents lie.
 [[gnu::noinline]] void orient(VertexLanes& out, const Geometry& geometry, std::span<const Ray* const> rays,
                               std::span<const Hit> hits) {
@@ -65,10 +71,12 @@ void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays
   std::size_t other_count = 0;
   bool any_oriented = false;
   count = hits.size();
+  blends.clear();
   for (std::uint32_t i = 0; i < count; ++i) {
     const Hit& hit = hits[i];
     wo.set(i, -rays[i]->direction);
     material[i] = &scene.material(geometry.material_of(hit));
+    if (material[i]->back != nullptr) material[i] = &seen_side(*material[i], geometry, *rays[i], hit);
     any_oriented |= material[i]->oriented;
     if (hit.kind != PrimitiveKind::triangle || hit.instance != kNoInstance || material[i]->is_textured) {
       others[other_count++] = i;
@@ -95,7 +103,7 @@ void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays
                       : s.shading_normal);
     if (material[i]->textured == nullptr) continue;
     const ConeOfRay* cone = !cones.empty() && material[i]->textured->is_filtered ? cones[i] : nullptr;
-    varying[i] = evaluate_bsdf(*material[i], texture_point(geometry, *rays[i], hits[i], cone));
+    varying[i] = evaluate_bsdf(*material[i], texture_point(geometry, *rays[i], hits[i], cone), blends);
   }
   set_frames(wo, *this);
   if (any_oriented) orient(*this, geometry, rays, hits);

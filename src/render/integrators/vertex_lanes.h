@@ -20,6 +20,7 @@ struct VertexLanes {
   Lanes<LightSamplingContext> light_context;
   Lanes<const SurfaceMaterial*> material;
   Lanes<Bsdf> varying; ///< where the BSDF depends on the hit (SurfaceMaterial::varies)
+  BlendArena blends;   ///< parts of those
 
   /// Lane i is where rays[i] met hits[i]. media[i] are those of the ray; none in scenes without priorities.
   /// Textures are filtered over cones[i], if there are cones.

@@ -3,6 +3,8 @@
 #include "materials/delta_lobes.h"
 #include "render/integrators/russian_roulette.h"
 
+#include <array>
+
 namespace candela {
 
 namespace {
@@ -12,6 +14,7 @@ namespace {
 constexpr int kBranchingDepth = 5;
 /// Branches have bounces of their own.
 constexpr std::uint32_t kBranchShift = 20;
+constexpr std::uint32_t kMostBranches = 1u << (32 - kBranchShift);
 
 struct SpecularRay {
   Ray ray;
@@ -64,7 +67,9 @@ private:
       if (material.emissive && (outside || material.two_sided_emission) && shows_depth(settings_, depth))
         sample_.add(path.throughput * emission_at(material, texture_at), depth);
       if (depth == last_depth_ || !vertex.scatters()) return;
-      Bsdf bsdf = material.textured != nullptr ? evaluate_bsdf(material, texture_at()) : material.bsdf;
+      BlendArena blends;
+      Bsdf bsdf =
+          material.textured != nullptr ? evaluate_bsdf(material, texture_at(), blends) : material.bsdf;
       if (material.oriented) orient_bsdf(bsdf, scene_.geometry(), path.ray, hit, vertex.frame.n);
       set_outside(scene_, material, path.media, outside, bsdf);
       if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1) {
@@ -76,27 +81,34 @@ private:
     }
   }
 
-  /// Traces the first of two branches and turns `path` into the last one; false where there is none.
+  /// Traces all branches but the last one, into which it turns `path`; false where there is none.
   bool continue_specular(SpecularRay& path, const Vertex& vertex, const Bsdf& bsdf, int depth) {
     DeltaLobes lobes = delta_lobes(bsdf, vertex.wo_local);
-    if (lobes.count == 2 && depth <= kBranchingDepth) {
-      SpecularRay other = path;
-      other.branch = 2 * path.branch + 1;
-      path.branch *= 2;
-      if (follow_lobe(other, vertex, lobes.lobe[0], 1, depth)) {
-        trace_ray(other, depth + 1);
-        set_sampler(path, depth);
-      }
-      return follow_lobe(path, vertex, lobes.lobe[1], 1, depth);
-    }
     if (lobes.count == 0) return false;
-    if (lobes.count == 1) return follow_lobe(path, vertex, lobes.lobe[0], 1, depth);
-    float first = max_component(lobes.lobe[0].transfer);
-    float second = max_component(lobes.lobe[1].transfer) * sqr(lobes.lobe[1].eta);
-    if (!(first + second > 0)) return false;
-    float p = first / (first + second);
-    if (sampler_.get_1d(Dimension::bsdf_lobe) < p) return follow_lobe(path, vertex, lobes.lobe[0], p, depth);
-    return follow_lobe(path, vertex, lobes.lobe[1], 1 - p, depth);
+    const auto last = static_cast<std::size_t>(lobes.count) - 1;
+    if (depth <= kBranchingDepth && path.branch << last < kMostBranches) {
+      for (std::size_t i = 0; i < last; ++i) {
+        SpecularRay other = path;
+        other.branch = 2 * path.branch + 1;
+        path.branch *= 2;
+        if (follow_lobe(other, vertex, lobes.lobe[i], 1, depth)) {
+          trace_ray(other, depth + 1);
+          set_sampler(path, depth);
+        }
+      }
+      return follow_lobe(path, vertex, lobes.lobe[last], 1, depth);
+    }
+    if (last == 0) return follow_lobe(path, vertex, lobes.lobe[0], 1, depth);
+    std::array<float, kMostDeltaLobes> shares{};
+    float sum = 0;
+    for (std::size_t i = 0; i <= last; ++i)
+      sum += shares[i] = max_component(lobes.lobe[i].transfer) * sqr(lobes.lobe[i].eta);
+    if (!(sum > 0)) return false;
+    const float u = sampler_.get_1d(Dimension::bsdf_lobe);
+    std::size_t chosen = 0;
+    float before = 0, upto = shares[0] / sum;
+    while (chosen < last && !(u < upto)) before = upto, upto += shares[++chosen] / sum;
+    return follow_lobe(path, vertex, lobes.lobe[chosen], (chosen == last ? 1 : upto) - before, depth);
   }
 
   bool follow_lobe(SpecularRay& path, const Vertex& vertex, const DeltaLobe& lobe, float probability,

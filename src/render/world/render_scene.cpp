@@ -1,6 +1,7 @@
 #include "render/world/render_scene.h"
 
 #include "core/error.h"
+#include "materials/material_parts.h"
 
 #include <array>
 #include <map>
@@ -29,6 +30,7 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
       SceneMaterials::of(document, previous != nullptr ? previous->materials_ : nullptr, progress);
   scene->surfaces_ = scene->materials_->data();
   scene->has_transparency_ = scene->materials_->has_transparency();
+  scene->has_invisible_ = scene->materials_->has_invisible();
   scene->has_priorities_ = scene->materials_->has_priorities();
   scene->filters_textures_ = scene->materials_->filters_textures();
   scene->has_media_ = !scene->materials_->media().empty();
@@ -42,15 +44,17 @@ void SceneMaterials::add_materials(const Document& document, const MipPyramidSou
   const Material overriding = o.is_on() ? overriding_material(o) : Material();
   std::vector<const Material*> scattering; // what each surface scatters by
   for (const Material& own : document.scene.materials) {
-    if (o.is_on()) {
+    const bool overridden = o.is_on() && !is_null(own);
+    if (overridden) {
       Material m = own;
       m.model = overriding.model;
       materials_.add(m, textures_, pyramids);
     } else {
-      materials_.add(own, textures_, pyramids);
+      materials_.add(own, textures_, pyramids, document.scene.materials);
     }
-    scattering.push_back(o.is_on() ? &overriding : &own);
-    has_transparency_ |= own.opacity.value < 1 || own.opacity.is_textured();
+    scattering.push_back(overridden ? &overriding : &own);
+    has_invisible_ |= is_null(own);
+    has_transparency_ |= is_null(own) || own.opacity.value < 1 || own.opacity.is_textured();
   }
   add_media(scattering);
 }
@@ -59,7 +63,7 @@ void SceneMaterials::add_media(const std::vector<const Material*>& materials) {
   std::vector<std::optional<Interior>> interiors;
   bool any = false;
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    std::optional<Interior>& inside = interiors.emplace_back(interior(materials[i]->model));
+    std::optional<Interior>& inside = interiors.emplace_back(interior(materials, i));
     if (!inside) continue;
     if (materials_[i].emissive) inside->priority = 0; // light sampling counts on its surface's being there
     has_priorities_ |= inside->priority > 0;
@@ -80,8 +84,7 @@ void SceneMaterials::add_media(const std::vector<const Material*>& materials) {
     if (media_.size() >= MediumId::kNone)
       throw Error(ExitCode::limit, "materials: there are more than 65534 different absorptions: use fewer");
     const auto priority = static_cast<std::int16_t>(interiors[i]->priority);
-    materials_[i].media.inside = {entry->second, priority};
-    materials_[i].varies |= priority > 0;
+    materials_.set_medium_inside(i, {entry->second, priority});
   }
 }
 

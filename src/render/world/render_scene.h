@@ -25,6 +25,8 @@ public:
   const SurfaceMaterial& material(std::uint32_t index) const { return surfaces_[index]; }
   /// Whether any surface lets light straight through, so that rays must look.
   bool has_transparency() const { return has_transparency_; }
+  /// Whether any surface is not there at all (null materials).
+  bool has_invisible() const { return has_invisible_; }
   /// Whether any body has a priority: surfaces inside of higher ones are not there, and what a surface does
   /// depends on what lies outside of it.
   bool has_priorities() const { return has_priorities_; }
@@ -61,7 +63,8 @@ private:
   std::shared_ptr<const SceneLights> lights_;
   // Of *materials_, where every ray reads them.
   const SurfaceMaterial* surfaces_ = nullptr;
-  bool has_transparency_ = false, has_priorities_ = false, has_media_ = false, filters_textures_ = false;
+  bool has_transparency_ = false, has_invisible_ = false, has_priorities_ = false, has_media_ = false,
+       filters_textures_ = false;
 };
 
 } // namespace candela

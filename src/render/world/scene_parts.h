@@ -32,6 +32,7 @@ public:
   /// Null where there are none.
   const SurfaceMaterial* data() const { return begin() == end() ? nullptr : &*begin(); }
   bool has_transparency() const { return has_transparency_; }
+  bool has_invisible() const { return has_invisible_; }
   bool filters_textures() const { return materials_.filters_textures(); }
   const std::vector<Medium>& media() const { return media_; }
   /// Parallel to media(): their index of refraction over vacuum.
@@ -50,7 +51,7 @@ private:
 
   std::vector<std::shared_ptr<const MipPyramid>> pyramids_; ///< what materials_ point to
   SurfaceMaterials materials_;
-  bool has_transparency_ = false, has_priorities_ = false;
+  bool has_transparency_ = false, has_invisible_ = false, has_priorities_ = false;
   std::vector<Medium> media_; ///< empty where nothing absorbs or has a priority
   std::vector<float> media_iors_;
 };

@@ -35,6 +35,7 @@ Edit other_value(const FieldInfo& row, void* address) {
     const std::string_view next = row.choices[0] == now ? row.choices[1] : row.choices[0];
     return {std::string(next), std::string(next)};
   }
+  case FieldType::material: return {"white", "0"}; // the first of the Cornell box
   case FieldType::integer: {
     int& value = *static_cast<int*>(static_cast<void*>(storage));
     value += value + 1 <= row.maximum ? 1 : -1;
@@ -60,7 +61,7 @@ Edit other_value(const FieldInfo& row, void* address) {
 }
 
 void edit(ViewerHarness& hand, const FieldInfo& row, const std::string& name, const Edit& value) {
-  if (row.type == FieldType::choice)
+  if (row.type == FieldType::choice || row.type == FieldType::material)
     hand.choose(name, value.typed);
   else if (row.type == FieldType::boolean)
     hand.click(name);

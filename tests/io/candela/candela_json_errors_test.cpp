@@ -25,6 +25,18 @@ const JsonError kErrors[] = {
     {"Empty", "", "s.json:1:1: JSON: ", "unexpected end of input"},
     {"Truncated", "{\"candela\": 1,\n \"lights\": [", "s.json:2:13: JSON: ", "unexpected end of input"},
     {"MissingComma", "{\"candela\": 1\n  \"lights\": []}", "s.json:2:3: JSON: ", "unexpected string literal"},
+    {"MaterialInItself",
+     "{\"candela\": 1, \"materials\": [{\"name\": \"a\", \"type\": \"blend\", \"first\": \"b\"},\n"
+     "{\"name\": \"b\", \"type\": \"two_sided\", \"back\": \"a\"}]}",
+     "s.json:2:44: materials[1].back: ", "a -> b -> a"},
+    {"NoSuchMaterial",
+     "{\"candela\": 1, \"materials\": [{\"name\": \"steel\"},\n"
+     "{\"name\": \"b\", \"type\": \"two_sided\", \"back\": \"steal\"}]}",
+     "s.json:2:44: materials[1].back: ", "steel"},
+    {"InvisiblePart",
+     "{\"candela\": 1, \"materials\": [{\"name\": \"air\", \"type\": \"null\"},\n"
+     "{\"name\": \"b\", \"type\": \"two_sided\", \"back\": \"air\"}]}",
+     "s.json:2:44: materials[1].back: ", "'air' is invisible"},
     {"DoubleComma", "{\"candela\": 1,\n \"lights\": [1,, 2]}", "s.json:2:15: JSON: ", "unexpected ','"},
     {"LeadingComma", "{,}", "s.json:1:2: JSON: ", "unexpected ','"},
     {"MissingValue", "{\"candela\": }", "s.json:1:13: JSON: ", "unexpected '}'"},

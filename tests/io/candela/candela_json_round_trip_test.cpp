@@ -43,6 +43,7 @@ void randomise(const Field<Owner>& row, Owner& owner, std::mt19937& random) {
     *static_cast<int*>(address) =
         std::uniform_int_distribution<int>(static_cast<int>(low), static_cast<int>(high))(random);
     break;
+  case FieldType::material: *static_cast<int*>(address) = coin(random) - 1; break; // none, or the first
   case FieldType::real: *static_cast<float*>(address) = real(); break;
   case FieldType::angle: *static_cast<float*>(address) = radians(real()); break;
   case FieldType::choice: {
@@ -292,6 +293,30 @@ TEST_F(CandelaJsonRoundTrip, EveryParameterAsATextureWithEveryRowOfItsUse) {
   const LoadedScene again = check(document);
   for (std::size_t i = 0; i < document.scene.materials.size(); ++i)
     EXPECT_EQ(again.document.scene.materials[i], document.scene.materials[i]) << i;
+}
+
+TEST_F(CandelaJsonRoundTrip, MaterialsOfMaterials) {
+  files.write("s.json", R"({"candela": 1, "materials": [
+      {"name": "rusty", "type": "blend", "first": "steel", "second": 2, "weight": {"texture": 0, "channel": "green"}},
+      {"name": "steel", "type": "conductor"}, {"name": "twin"}, {"name": "twin"},
+      {"type": "two_sided", "front": "rusty", "back": 3, "opacity": 0.5},
+      {"name": "air", "type": "null", "absorption": [1, 2, 3]}, {"type": "blend", "second": "steel"}],
+    "textures": [{"type": "checker", "name": "mask"}]})");
+  const LoadedScene loaded = files.read("s.json");
+  const auto& materials = loaded.document.scene.materials;
+  const auto& rusty = std::get<BlendMaterial>(materials[0].model);
+  EXPECT_EQ(rusty.first, 1) << "which comes later in the file";
+  EXPECT_EQ(rusty.second, 2);
+  EXPECT_EQ(rusty.weight.use.texture, 0);
+  EXPECT_EQ(std::get<TwoSidedMaterial>(materials[4].model), (TwoSidedMaterial{0, 3}));
+  EXPECT_EQ(std::get<NullMaterial>(materials[5].model).absorption, vec3(1, 2, 3));
+  EXPECT_EQ(std::get<BlendMaterial>(materials[6].model).first, -1);
+  const LoadedScene again = check(loaded.document);
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    EXPECT_EQ(again.document.scene.materials[i], materials[i]) << i;
+  EXPECT_NE(test::read_text(files / "out.json").find("\"first\": \"steel\", \"second\": 2"),
+            std::string::npos)
+      << "by name, where only one has it";
 }
 
 TEST_F(CandelaJsonRoundTrip, Panoramas) {

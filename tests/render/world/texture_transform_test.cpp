@@ -15,6 +15,7 @@ struct TextureTransform : ::testing::Test {
       picture_texture(2, 1, {255, 0, 0, 0, 255, 0}), // red on the left
       picture_texture(2, 1, {0, 255}, 1)};
   SurfaceMaterials materials;
+  BlendArena blends;
 
   const SurfaceMaterial& added(const Material& material) {
     materials.add(material, textures);
@@ -22,7 +23,7 @@ struct TextureTransform : ::testing::Test {
   }
   vec3 reflectance(const Material& material, vec2 uv) {
     materials = {};
-    return std::get<Diffuse>(evaluate_bsdf(added(material), uv)).reflectance;
+    return std::get<Diffuse>(evaluate_bsdf(added(material), uv, blends)).reflectance;
   }
 };
 
@@ -89,8 +90,8 @@ TEST_F(TextureTransform, EveryParameterMayBeATexture) {
         return bsdf_eval(a, wo, wi) == bsdf_eval(b, wo, wi) && bsdf_albedo(a) == bsdf_albedo(b) &&
                through(a) == through(b);
       };
-      EXPECT_TRUE(same(evaluate_bsdf(s, vec2(0.25f, 0.5f)), make_bsdf(low)));
-      EXPECT_TRUE(same(evaluate_bsdf(s, vec2(0.75f, 0.5f)), make_bsdf(high)));
+      EXPECT_TRUE(same(evaluate_bsdf(s, vec2(0.25f, 0.5f), blends), make_bsdf(low)));
+      EXPECT_TRUE(same(evaluate_bsdf(s, vec2(0.75f, 0.5f), blends), make_bsdf(high)));
     });
   }
 }

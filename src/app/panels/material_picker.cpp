@@ -1,0 +1,36 @@
+#include "app/panels/material_picker.h"
+
+#include "app/ui/item_list.h"
+#include "materials/material_parts.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace candela {
+
+void material_part_field(Ui& ui, ViewerState& state, std::size_t material, const MaterialField& row) {
+  auto& materials = state.document.scene.materials;
+  int& part = *static_cast<int*>(row.address(materials[material]));
+  std::vector<std::string> names = {"none"};
+  std::vector<int> indices = {-1};
+  for (int i = 0; i < static_cast<int>(materials.size()); ++i) {
+    const Material& other = materials[static_cast<std::size_t>(i)];
+    if (is_null(other) || contains_material(materials, i, static_cast<int>(material))) continue;
+    names.push_back(name_or_number(other.name, "Material", static_cast<std::size_t>(i)));
+    indices.push_back(i);
+  }
+  const std::vector<std::string_view> choices(names.begin(), names.end());
+  auto chosen = static_cast<int>(std::ranges::find(indices, part) - indices.begin());
+  const std::string name = fmt::format("material.{}", row.key), label = field_label(row);
+  if (!ui.choice(name.c_str(), label.c_str(), chosen, choices, field_tooltip(row, nullptr))) return;
+  const int before = std::exchange(part, indices[static_cast<std::size_t>(chosen)]);
+  if (const auto problem = parts_problem(materials)) {
+    part = before;
+    state.fail(ErrorCause::material, fmt::format("{}: {}", problem->cause, problem->remedy));
+    return;
+  }
+  state.settle(ErrorCause::material);
+  state.edited = true;
+}
+
+} // namespace candela
