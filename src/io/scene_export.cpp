@@ -63,6 +63,14 @@ std::vector<ExportedFile> export_candela_json(Document document, const std::stri
     texture = std::move(moved);
   }
   for (LightDesc& light : document.scene.lights) {
+    if (const auto profile = light_profile(light)) {
+      std::string source = copier.reachable(profile->source);
+      if (source != profile->source) {
+        auto moved = std::make_shared<IesProfile>(*profile);
+        moved->source = std::move(source);
+        set_profile(light, std::move(moved));
+      }
+    }
     const auto panorama = light_panorama(light);
     if (!panorama) continue;
     std::vector<std::string> sources;
@@ -71,7 +79,7 @@ std::vector<ExportedFile> export_candela_json(Document document, const std::stri
     if (sources == panorama->sources) continue;
     auto moved = std::make_shared<Panorama>(*panorama);
     moved->sources = std::move(sources);
-    std::get<EnvironmentLightModel>(light.model).panorama = std::move(moved);
+    set_panorama(light, std::move(moved));
   }
   for (Instance& instance : document.scene.instances) {
     auto* curves = std::get_if<CurvesShape>(&instance.shape);

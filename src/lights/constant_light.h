@@ -58,7 +58,7 @@ struct ConstantLight {
   double mean_irradiance(EnvironmentDensity) const { return static_cast<double>(kPi * luminance(radiance)); }
 };
 
-inline ConstantLight light_of(const ConstantLightModel&, Spectrum color, const EnvironmentMapSource&) {
+inline ConstantLight light_of(const ConstantLightModel&, Spectrum color, const LightResources&) {
   return {color};
 }
 

@@ -45,8 +45,7 @@ struct DirectionalLight {
   double typical_irradiance() const { return static_cast<double>(luminance(irradiance)); }
 };
 
-inline DirectionalLight light_of(const DirectionalLightModel& m, Spectrum color,
-                                 const EnvironmentMapSource&) {
+inline DirectionalLight light_of(const DirectionalLightModel& m, Spectrum color, const LightResources&) {
   return {glm::normalize(m.direction), color};
 }
 

@@ -84,19 +84,23 @@ struct EnvironmentLight {
   }
 };
 
-/// First `rotation` about +y, then the smallest turn that takes +y to `up`.
-inline mat3 world_from_panorama(const EnvironmentLightModel& light) {
-  glm::dvec3 up = glm::normalize(glm::dvec3(light.up)), y(0, 1, 0), axis = glm::cross(y, up);
+/// First `rotation` (radians) about +y, then the smallest turn that takes +y to `up_direction`, of any
+/// length.
+inline mat3 turned_about_up(vec3 up_direction, float rotation) {
+  glm::dvec3 up = glm::normalize(glm::dvec3(up_direction)), y(0, 1, 0), axis = glm::cross(y, up);
   double sine = glm::length(axis), tilt = std::atan2(sine, up.y);
   axis = sine > 0 ? axis / sine : glm::dvec3(1, 0, 0);
   glm::dmat4 turn = glm::rotate(glm::dmat4(1), tilt, axis);
-  return mat3(glm::rotate(turn, static_cast<double>(light.rotation), y));
+  return mat3(glm::rotate(turn, static_cast<double>(rotation), y));
+}
+inline mat3 world_from_panorama(const EnvironmentLightModel& light) {
+  return turned_about_up(light.up, light.rotation);
 }
 
 /// A constant light where there is no panorama.
 inline std::variant<ConstantLight, EnvironmentLight> light_of(const EnvironmentLightModel& m, Spectrum color,
-                                                              const EnvironmentMapSource& maps) {
-  if (m.panorama) return EnvironmentLight{maps(m), world_from_panorama(m), color};
+                                                              const LightResources& resources) {
+  if (m.panorama) return EnvironmentLight{resources.environment_map(m), world_from_panorama(m), color};
   return ConstantLight{color};
 }
 

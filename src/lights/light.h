@@ -6,10 +6,14 @@
 #include "lights/directional_light.h"
 #include "lights/disc_light.h"
 #include "lights/environment_light.h"
+#include "lights/goniometric_light.h"
 #include "lights/point_light.h"
+#include "lights/projector_light.h"
 #include "lights/rectangle_light.h"
+#include "lights/sky_light.h"
 #include "lights/sphere_light.h"
 #include "lights/spot_light.h"
+#include "lights/sun_light.h"
 #include "lights/triangle_light.h"
 
 namespace candela {
@@ -45,12 +49,14 @@ concept LightModel = requires(const L& light, const LightSamplingContext& ctx, v
 
 /// What scenes say of lights without a shape, see lights/light_rows.h. A new light is a file of its own, and
 /// its names here and below.
-using LightDescModel = std::variant<PointLightModel, DirectionalLightModel, ConstantLightModel,
-                                    SpotLightModel, EnvironmentLightModel>;
+using LightDescModel =
+    std::variant<PointLightModel, DirectionalLightModel, ConstantLightModel, SpotLightModel,
+                 EnvironmentLightModel, ProjectorLightModel, SkyLightModel>;
 
 /// All lights as transport samples them, those that shapes are among them.
-using Light = std::variant<RectangleLight, TriangleLight, SphereLight, DiscLight, PointLight,
-                           DirectionalLight, ConstantLight, SpotLight, EnvironmentLight>;
+using Light =
+    std::variant<RectangleLight, TriangleLight, SphereLight, DiscLight, PointLight, DirectionalLight,
+                 ConstantLight, SpotLight, EnvironmentLight, GoniometricLight, ProjectorLight, SunLight>;
 
 namespace detail {
 

@@ -8,9 +8,12 @@
 //   rows()     a std::array of LightRow, one for each of its values
 //   problem()  what the rows cannot check: "key: cause; remedy"; empty if all is well
 //
-// and light_of(model, color, maps), the light as transport samples it (lights/light.h has what that offers).
+// and light_of(model, color, resources), the light as transport samples it (lights/light.h has what that
+// offers), or a std::variant or a range of such.
 //
-// A model with a place has a `position` in world space, which the viewer can move.
+// A model with a place has a `position` in world space, which the viewer can move; one that shows a picture a
+// `panorama`; one that can be shaped by a photometric file a `profile`. Lights point to these: a description
+// must live as long as its lights.
 
 #include "core/fields.h"
 
@@ -24,15 +27,29 @@ namespace candela {
 /// Where a panorama has which direction; see lights/environment_map.h for the axes.
 enum class EnvironmentMapping : int { latlong, angular, cross, faces };
 
+/// What the values of a photometric file or goniometric picture are multiplied by, besides the colour.
+enum class ProfileStrength : int { file, peak, power };
+
+/// How a sky is told where its sun stands.
+enum class SunPlacement : int { angles, place };
+
 class EnvironmentMap;
 struct EnvironmentLightModel;
-/// Makes the map of a model that has a panorama; the caller does not own it.
-using EnvironmentMapSource = std::function<const EnvironmentMap*(const EnvironmentLightModel&)>;
+struct SkyModel;
+struct SkyParameters;
+/// What takes long to make, and serves several lights and edits. The caller of light_of() keeps it.
+struct LightResources {
+  /// The map of a model that has a panorama.
+  std::function<const EnvironmentMap*(const EnvironmentLightModel&)> environment_map;
+  std::function<const SkyModel*(const SkyParameters&)> sky;
+};
 
 /// The row of one value of a model.
 template <class Model>
 struct LightRow : FieldInfo {
-  std::variant<vec3 Model::*, float Model::*, EnvironmentMapping Model::*> member;
+  std::variant<vec3 Model::*, float Model::*, int Model::*, EnvironmentMapping Model::*,
+               ProfileStrength Model::*, SunPlacement Model::*>
+      member;
 };
 
 /// Whether a direction has no length, or the coefficients of a fall-off are all zero.
@@ -51,6 +68,22 @@ constexpr FieldInfo position_row() {
 }
 constexpr FieldInfo direction_row(std::string_view help) {
   return {"direction", FieldType::point, -kAnyCoordinate, kAnyCoordinate, "", help, Invalidates::scene};
+}
+constexpr FieldInfo roll_row(std::string_view help) {
+  return {"roll", FieldType::angle, -360, 360, "degrees", help, Invalidates::scene};
+}
+inline constexpr std::array<std::string_view, 3> kProfileStrengths = {"file", "peak", "power"};
+constexpr FieldInfo profile_strength_row() {
+  return {
+      "strength",
+      FieldType::choice,
+      0,
+      0,
+      "",
+      "With a file: the colour multiplies its values (candela over 110 lm/W, a picture's as they are), or is "
+      "the radiant intensity at its peak, or the power in W of all directions",
+      Invalidates::scene,
+      kProfileStrengths};
 }
 constexpr FieldInfo attenuation_row() {
   return {"attenuation",

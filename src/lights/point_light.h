@@ -1,60 +1,45 @@
 #pragma once
 
 #include "core/color.h"
+#include "lights/attenuation.h"
+#include "lights/goniometric_light.h"
 #include "lights/light_bounds.h"
 #include "lights/light_rows.h"
-#include "lights/light_sample.h"
 
 namespace candela {
 
-/// A point that emits equally in all directions.
+/// A point that emits equally in all directions, or as a photometric file or a goniometric picture says.
 struct PointLightModel {
   vec3 position{0};
   /// Coefficients a, b, c: at the distance r the irradiance on a facing surface is intensity / (a + b r + c
   /// r^2). Anything but (0, 0, 1) is not physical.
   vec3 attenuation{0, 0, 1};
-  bool operator==(const PointLightModel&) const = default;
+  // With a file alone; lights/goniometric_light.h has the axes.
+  vec3 direction{0, -1, 0}; ///< where the luminaire's nadir points, any length
+  float roll = 0;           ///< radians, about its upward axis
+  ProfileStrength strength = ProfileStrength::file;
+  std::shared_ptr<const IesProfile> profile = nullptr;     ///< at most one of these two
+  std::shared_ptr<const Panorama> panorama = nullptr;      ///< latitude and longitude
+  bool operator==(const PointLightModel&) const = default; ///< files by identity
 
   static constexpr std::string_view kName = "point";
-  static constexpr std::string_view kHelp = "from a point, equally in all directions";
+  static constexpr std::string_view kHelp =
+      "from a point, equally in all directions or as a photometric file or picture says";
   static constexpr FieldInfo kColor = color_row("W/sr", "Radiant intensity");
   static constexpr auto rows() {
     using Row = LightRow<PointLightModel>;
-    return std::array{Row{position_row(), &PointLightModel::position},
-                      Row{attenuation_row(), &PointLightModel::attenuation}};
+    return std::array{
+        Row{position_row(), &PointLightModel::position},
+        Row{direction_row("With a file: where the nadir of the luminaire points"),
+            &PointLightModel::direction},
+        Row{roll_row("With a file: turns it about the axis through its nadir"), &PointLightModel::roll},
+        Row{profile_strength_row(), &PointLightModel::strength},
+        Row{attenuation_row(), &PointLightModel::attenuation},
+    };
   }
   std::string problem() const {
+    if (is_zero(direction)) return "direction: has no length; give a direction";
     return is_zero(attenuation) ? "attenuation: is zero; give 0 0 1 for 1 / r^2" : "";
-  }
-};
-
-/// How the light of a point falls off with the distance: LightDesc::attenuation.
-struct Attenuation {
-  /// Divides by x + y r + z r^2 of the distance r.
-  vec3 coefficients{0, 0, 1};
-
-  bool inverse_square() const { return coefficients.x == 0 && coefficients.y == 0; }
-  template <class T>
-  T divisor(T r) const {
-    T a(coefficients.x), b(coefficients.y), c(coefficients.z);
-    return a + b * r + c * (r * r);
-  }
-  /// How many times stronger a light is at the distance r than one that falls with the square is.
-  float relative_to_inverse_square(float r) const {
-    auto d = static_cast<double>(r);
-    return static_cast<float>(d * d / divisor(d));
-  }
-  /// Of a light at `position` whose intensity towards the shading point is `intensity`.
-  std::optional<LightSample> sample(const LightSamplingContext& ctx, vec3 position,
-                                    Spectrum intensity) const {
-    float distance2 = length_squared(position - ctx.position);
-    if (!(distance2 > 0)) return std::nullopt;
-    float by = coefficients.z * distance2;
-    if (!inverse_square()) by = divisor(std::sqrt(distance2));
-    std::optional<LightSample> s;
-    set_towards(s.emplace(), ctx, position, vec3(0), vec3(0), intensity / by, 1);
-    s->delta = true;
-    return s;
   }
 };
 
@@ -80,8 +65,12 @@ struct PointLight {
   double typical_irradiance() const { return static_cast<double>(luminance(intensity)); }
 };
 
-inline PointLight light_of(const PointLightModel& m, Spectrum color, const EnvironmentMapSource&) {
-  return {m.position, color, m.attenuation};
+inline std::variant<PointLight, GoniometricLight> light_of(const PointLightModel& m, Spectrum color,
+                                                           const LightResources& resources) {
+  if (!m.profile && !m.panorama) return PointLight{m.position, color, m.attenuation};
+  return goniometric_light({m.position, m.direction, m.roll, m.profile.get(), m.panorama, m.strength, color,
+                            m.attenuation, SpotCone{kPi, kPi}},
+                           resources);
 }
 
 } // namespace candela

@@ -5,7 +5,7 @@
 
 namespace candela {
 
-/// A point that emits into a cone.
+/// A point that emits into a cone, within it perhaps as a photometric file says.
 struct SpotLightModel {
   vec3 position{0};
   vec3 direction{0, -1, 0}; ///< the axis, any length
@@ -14,10 +14,15 @@ struct SpotLightModel {
   float cutoff_angle = radians(20.0f);
   float beam_width = radians(15.0f);
   vec3 attenuation{0, 0, 1}; ///< as PointLightModel has it
-  bool operator==(const SpotLightModel&) const = default;
+  // As PointLightModel has them; `direction` is where the luminaire's nadir points.
+  float roll = 0;
+  ProfileStrength strength = ProfileStrength::file;
+  std::shared_ptr<const IesProfile> profile = nullptr;
+  bool operator==(const SpotLightModel&) const = default; ///< the file by identity
 
   static constexpr std::string_view kName = "spot";
-  static constexpr std::string_view kHelp = "from a point, into a cone";
+  static constexpr std::string_view kHelp =
+      "from a point, into a cone, as a photometric file says if there is one";
   static constexpr FieldInfo kColor = color_row("W/sr", "Radiant intensity on the axis");
   static constexpr auto rows() {
     using Row = LightRow<SpotLightModel>;
@@ -31,6 +36,8 @@ struct SpotLightModel {
              "Angle from the axis up to which the intensity is full; from there it falls to the cutoff",
              Invalidates::scene},
             &SpotLightModel::beam_width},
+        Row{roll_row("With a file: turns it about the axis"), &SpotLightModel::roll},
+        Row{profile_strength_row(), &SpotLightModel::strength},
         Row{attenuation_row(), &SpotLightModel::attenuation},
     };
   }
@@ -50,11 +57,7 @@ struct SpotLight {
   static constexpr std::string_view kName = "spot";
   static constexpr LightKind kind = LightKind::delta_position;
 
-  /// Share of the intensity at an angle to the axis.
-  float falloff(float angle) const {
-    if (angle >= cutoff_angle) return 0;
-    return angle <= beam_width ? 1 : (cutoff_angle - angle) / (cutoff_angle - beam_width);
-  }
+  float falloff(float angle) const { return SpotCone{beam_width, cutoff_angle}.falloff(angle); }
   std::optional<LightSample> sample(const LightSamplingContext& ctx, vec2) const {
     vec3 d = ctx.position - position;
     float share = falloff(std::atan2(glm::length(glm::cross(axis, d)), glm::dot(axis, d)));
@@ -81,13 +84,15 @@ struct SpotLight {
   double typical_irradiance() const { return static_cast<double>(luminance(intensity)); }
 };
 
-inline SpotLight light_of(const SpotLightModel& m, Spectrum color, const EnvironmentMapSource&) {
-  return {m.position,
-          glm::normalize(m.direction),
-          std::min(m.beam_width, m.cutoff_angle),
-          m.cutoff_angle,
-          color,
-          m.attenuation};
+inline std::variant<SpotLight, GoniometricLight> light_of(const SpotLightModel& m, Spectrum color,
+                                                          const LightResources& resources) {
+  const SpotCone cone{std::min(m.beam_width, m.cutoff_angle), m.cutoff_angle};
+  if (!m.profile)
+    return SpotLight{m.position,   glm::normalize(m.direction), cone.beam_width, cone.cutoff_angle, color,
+                     m.attenuation};
+  return goniometric_light(
+      {m.position, m.direction, m.roll, m.profile.get(), nullptr, m.strength, color, m.attenuation, cone},
+      resources);
 }
 
 } // namespace candela

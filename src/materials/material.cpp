@@ -94,6 +94,7 @@ std::span<const std::string_view> scattering_type_names() {
 Material default_material(int type) { return with_model<Material>(type); }
 
 void change_type(Material& material, int type) {
+  const std::string group = material.group;
   auto copy = [](const MaterialField& to, Material& changed, const MaterialField& from, Material& old) {
     if (!from.kept || !to.kept) return;
     if (to.parameter != nullptr && from.parameter != nullptr &&
@@ -103,6 +104,7 @@ void change_type(Material& material, int type) {
   };
   change_model(
       material, type, [](int t) { return material_fields(t); }, copy);
+  material.group = group;
 }
 
 std::span<const MaterialField> material_fields(int type) {

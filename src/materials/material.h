@@ -25,6 +25,7 @@ struct Material {
   ColorParameter normal_map = standard_normal_map(); ///< tangent space, (n + 1) / 2; a constant is no map
   NumberParameter bump = 0.0f;                       ///< height, scene units; a constant is no map
   bool two_sided_emission = false;                   ///< otherwise only from the side of the geometric normal
+  std::string group{};                               ///< of lights that its emission belongs to; empty: none
   bool operator==(const Material&) const = default;
 };
 

@@ -16,10 +16,11 @@ bool same_value(const std::shared_ptr<const T>& a, const std::shared_ptr<const T
 }
 
 bool same_light(const LightDesc& a, const LightDesc& b) {
-  if (!same_value(light_panorama(a), light_panorama(b))) return false;
+  if (!same_value(light_panorama(a), light_panorama(b)) || !same_value(light_profile(a), light_profile(b)))
+    return false;
   LightDesc c = b;
-  if (auto* environment = std::get_if<EnvironmentLightModel>(&c.model))
-    environment->panorama = light_panorama(a);
+  if (takes_panorama(c)) set_panorama(c, light_panorama(a));
+  if (takes_profile(c)) set_profile(c, light_profile(a));
   return a == c;
 }
 
@@ -146,8 +147,8 @@ Invalidates compare_documents(const Document& before, const Document& after) {
                                accumulated_view(before.settings.view) != accumulated_view(after.settings.view)
                            ? row.invalidates
                            : Invalidates::display);
-  if (before.scene.lights != after.scene.lights || before.scene.instances != after.scene.instances ||
-      before.scene.textures != after.scene.textures)
+  if (before.scene.lights != after.scene.lights || before.scene.light_groups != after.scene.light_groups ||
+      before.scene.instances != after.scene.instances || before.scene.textures != after.scene.textures)
     return Invalidates::scene;
   return std::max(worst, compare_materials(before.scene.materials, after.scene.materials));
 }
@@ -155,7 +156,7 @@ Invalidates compare_documents(const Document& before, const Document& after) {
 bool same_content(const Document& a, const Document& b) {
   const SceneDesc &s = a.scene, &t = b.scene;
   if (a.settings != b.settings || s.description != t.description || s.camera != t.camera ||
-      s.bookmarks != t.bookmarks || s.materials != t.materials ||
+      s.bookmarks != t.bookmarks || s.materials != t.materials || s.light_groups != t.light_groups ||
       !std::ranges::equal(s.lights, t.lights, same_light) || s.instances.size() != t.instances.size() ||
       s.textures.size() != t.textures.size())
     return false;
@@ -190,6 +191,7 @@ std::string document_problem(const Document& document) {
       if (auto p = panorama_problem(*panorama); !p.empty())
         return fmt::format("lights[{}].panorama: {}", i, p);
   }
+  if (auto p = light_groups_problem(scene); !p.empty()) return p;
   std::set<const void*> checked;
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
     if (auto p = instance_problem(scene, scene.instances[i], i, checked); !p.empty()) return p;

@@ -7,6 +7,7 @@
 #include "lights/light_desc.h"
 #include "materials/material.h"
 #include "scene/curves.h"
+#include "scene/light_group.h"
 #include "scene/mesh.h"
 #include "textures/texture.h"
 
@@ -106,6 +107,7 @@ struct SceneDesc {
   std::vector<Bookmark> bookmarks;
   std::vector<Material> materials;
   std::vector<LightDesc> lights;
+  std::vector<LightGroup> light_groups; ///< of different names
   std::vector<Instance> instances;
   std::vector<std::shared_ptr<const Texture>> textures;
   bool operator==(const SceneDesc&) const = default; ///< meshes, strands and pictures by identity

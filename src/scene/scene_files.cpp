@@ -11,9 +11,11 @@ std::set<std::string> source_files(const SceneDesc& scene) {
       files.insert(curves->strands->source);
   for (const auto& texture : scene.textures)
     if (const auto* image = texture->image()) files.insert(image->source);
-  for (const LightDesc& light : scene.lights)
+  for (const LightDesc& light : scene.lights) {
+    if (const auto profile = light_profile(light)) files.insert(profile->source);
     if (const auto panorama = light_panorama(light))
       files.insert(panorama->sources.begin(), panorama->sources.end());
+  }
   files.erase("");
   return files;
 }

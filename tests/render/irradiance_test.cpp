@@ -197,6 +197,55 @@ TEST(ClosedFormRender, PointLightFallsOffWithTheSquare) {
   expect_irradiance(s, 5.0 * dvec3(kLe) * (2.0 / 3) / 9.0); // at distance 3, under the cosine 2/3
 }
 
+TEST(ClosedFormRender, ProfilesShapePointsAndSpots) {
+  auto profile = std::make_shared<IesProfile>();
+  profile->vertical = {0, 0.5f * kPi}, profile->horizontal = {0}, profile->candela = {900, 0};
+  const double angle = std::acos(2.0 / 3), candela = 900 * (1 - angle / (0.5 * kPiD));
+  for (const LightDescModel& model :
+       {LightDescModel(PointLightModel{.position = {1, 2, -2}, .profile = profile}),
+        LightDescModel(SpotLightModel{
+            .position = {1, 2, -2}, .cutoff_angle = 1.2f, .beam_width = 1, .profile = profile})}) {
+    SceneMaker s = plane_scene(4);
+    LightDesc l;
+    l.model = model;
+    l.color = kLe;
+    s.document.scene.lights.push_back(l);
+    expect_irradiance(s, candela / kDaylightEfficacy * dvec3(kLe) * (2.0 / 3) / 9.0);
+  }
+}
+
+TEST(ClosedFormRender, AProjectorSendsItsPicture) {
+  auto slide = std::make_shared<Panorama>();
+  slide->image = {2, 1, {vec3(0.2f), vec3(0.8f)}};
+  SceneMaker s = plane_scene(4);
+  LightDesc l;
+  l.model = ProjectorLightModel{.position = {1, 2, -2}, .direction = {-1, -2, 2}, .panorama = slide};
+  l.color = 18.0f * kLe;
+  s.document.scene.lights.push_back(l);
+  expect_irradiance(s, dvec3(kLe) * 0.5 * 18.0 * (2.0 / 3) / 9.0); // between both texels
+}
+
+TEST(ClosedFormRender, SunAndSkyGiveWhatTheirRadianceIntegratesTo) {
+  SceneMaker s = plane_scene(512);
+  LightDesc l;
+  l.model = SkyLightModel{.sun_elevation = radians(30.0f), .resolution = 64};
+  l.color = 0.01f * kLe;
+  s.document.scene.lights.push_back(l);
+  const auto scene = RenderScene::build(s.document);
+  dvec3 irradiance(0);
+  constexpr int kRings = 300, kTurns = 600;
+  for (int i = 0; i < kRings; ++i) // uniform in the square of the sine: by the cosine
+    for (int k = 0; k < kTurns; ++k) {
+      const double sine = std::sqrt((i + 0.5) / kRings), phi = 2 * kPiD * (k + 0.5) / kTurns;
+      const vec3 d(dvec3(sine * std::cos(phi), std::sqrt(1 - sine * sine), sine * std::sin(phi)));
+      irradiance += dvec3(std::get<EnvironmentLight>(scene->lights().at(0)).radiance_from(d));
+    }
+  irradiance *= kPiD / (kRings * kTurns);
+  const SunDisc& sun = std::get<SunLight>(scene->lights().at(1)).disc;
+  irradiance += dvec3(sun.irradiance) * static_cast<double>(sun.direction.y);
+  expect_irradiance(s, irradiance, false, 2);
+}
+
 TEST(ClosedFormRender, DirectionalLightHasTheCosine) {
   SceneMaker s = plane_scene(4);
   LightDesc l;

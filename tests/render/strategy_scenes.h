@@ -214,6 +214,41 @@ inline Document filtered_textures_scene() {
   return s.document;
 }
 
+/// A sky, whose sun the BSDF would not find, and a lamp, a spot and two pictures that shape the intensity by
+/// direction.
+inline Document shaped_lights_scene() {
+  SceneMaker s(8, 8, 1);
+  s.rectangle({0, 0, 0}, {0, 0, 3}, {3, 0, 0}, s.diffuse({0.7f, 0.5f, 0.6f}));
+  s.sphere({-0.9f, 0.7f, 0}, 0.7f, s.material(strategy_material("ggx", vec3(0), {0.8f, 0.7f, 0.9f})));
+  s.sphere({0.9f, 0.6f, 0.2f}, 0.6f, s.diffuse({0.3f, 0.6f, 0.4f}));
+  auto profile = std::make_shared<IesProfile>();
+  profile->vertical = {0, radians(30.0f), radians(60.0f), radians(100.0f)};
+  profile->horizontal = {0, radians(120.0f), radians(240.0f), radians(360.0f)};
+  profile->candela = {900, 700, 300, 20, 900, 500, 600, 90, 900, 300, 100, 5, 900, 700, 300, 20};
+  auto picture = std::make_shared<Panorama>();
+  picture->image = {4, 2, {}};
+  for (int i = 0; i < 8; ++i)
+    picture->image.pixels.emplace_back(i % 3, 1 + i % 2, 0.5f * static_cast<float>(i));
+  auto add = [&](LightDescModel model, vec3 color, float temperature = 0) {
+    LightDesc light;
+    light.model = std::move(model);
+    light.color = color, light.temperature = temperature;
+    s.document.scene.lights.push_back(light);
+  };
+  add(SkyLightModel{.sun_elevation = radians(20.0f), .sun_scale = 0, .resolution = 32}, vec3(0.004f));
+  add(PointLightModel{.position = {0, 2, 0.5f}, .roll = 0.4f, .profile = profile}, vec3(0.3f), 2700);
+  add(SpotLightModel{.position = {-2, 2.5f, 1},
+                     .direction = {2, -2, -1},
+                     .cutoff_angle = 0.6f,
+                     .beam_width = 0.3f,
+                     .profile = profile},
+      vec3(1));
+  add(PointLightModel{.position = {1.5f, 1.5f, -1}, .panorama = picture}, vec3(0.4f));
+  add(ProjectorLightModel{.position = {0, 3, 2}, .direction = {0, -2, -1}, .panorama = picture}, vec3(3));
+  s.camera({0, 3, 5}, {0, 0.5f, 0}, 45);
+  return s.document;
+}
+
 inline std::vector<NamedScene> strategy_scenes() {
   Document cornell = cornell_flush(8, 8, 1, true).document;
   return {{"Cornell box with blocks", cornell},
@@ -225,7 +260,8 @@ inline std::vector<NamedScene> strategy_scenes() {
           {"environment and spot", environment_scene()},
           {"coarse smooth gloss", smooth_gloss_scene()},
           {"textured lamps", textured_lamps_scene()},
-          {"filtered textures", filtered_textures_scene()}};
+          {"filtered textures", filtered_textures_scene()},
+          {"shaped lights", shaped_lights_scene()}};
 }
 
 } // namespace candela::test

@@ -159,14 +159,16 @@ void check_render_outputs(const RenderOptions& options, const std::vector<std::s
   check_outputs(planned, inputs);
 }
 
-/// The scene's textures and panoramas.
+/// The scene's textures, panoramas and photometric files.
 std::vector<std::string> picture_files(const SceneDesc& scene) {
   std::vector<std::string> files;
   for (const auto& texture : scene.textures)
     if (const auto* image = texture->image()) files.push_back(image->source);
-  for (const LightDesc& light : scene.lights)
+  for (const LightDesc& light : scene.lights) {
     if (const auto panorama = light_panorama(light))
       files.insert(files.end(), panorama->sources.begin(), panorama->sources.end());
+    if (const auto profile = light_profile(light)) files.push_back(profile->source);
+  }
   std::erase(files, "");
   return files;
 }

@@ -115,6 +115,7 @@ std::string edit_name(const EditState& before, const EditState& after) {
     if (light_type(x) != light_type(y)) return std::string("type");
     return joined(changed_keys(light_fields(x), x, y));
   }));
+  if (a.light_groups != b.light_groups) add("Light groups");
   add(list_edit(a.bookmarks, b.bookmarks, "Bookmark", "bookmarks",
                 [](const Bookmark&, const Bookmark&) { return std::string(); }));
   std::set<std::string_view> poses = {"camera.position", "camera.target", "camera.up"};

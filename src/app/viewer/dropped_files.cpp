@@ -25,7 +25,7 @@ Kind kind_of(const std::string& path) {
     return format->is_model ? Kind::model : Kind::scene;
   if (ending == kJobEnding) return Kind::scene;
   if (ending == ".mtl") return Kind::part;
-  return is_image_name(path) ? Kind::picture : Kind::other;
+  return is_image_name(path) || ending == ".ies" ? Kind::picture : Kind::other;
 }
 
 std::string name_of(const std::string& path) { return fs::path(path).filename().string(); }

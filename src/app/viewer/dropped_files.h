@@ -7,7 +7,7 @@
 namespace candela {
 
 struct Dropped {
-  std::string open;   ///< a scene or a panorama; empty: none
+  std::string open;   ///< a scene, a panorama or a photometric file; empty: none
   std::string remark; ///< the ignored files, or why none can be opened; may be empty
 };
 

@@ -169,10 +169,13 @@ private:
   void remember_recent(const std::string& path);
   void write_preferences_if_changed();
   void light_with(std::shared_ptr<const Panorama> panorama, const FileStamps& files);
+  /// Gives the profile to the selected light, or to the first that may have one.
+  void shape_light_with(std::shared_ptr<const IesProfile> profile, const FileStamps& files);
   void install_scene(Document document, std::string path, std::vector<std::string> warnings,
                      const Bounds3& bounds, FileStamps files);
   void watch_files(FileStamps known = {});
   void read_panoramas_again(const std::set<std::string>& changed);
+  void read_profiles_again(const std::set<std::string>& changed);
   void save_shown_picture();
 
   // viewer_compare.cpp

@@ -1,6 +1,7 @@
 // Opening and watching scenes in the background. Saving is in viewer_saving.cpp.
 
 #include "app/panels/texture_picker.h"
+#include "app/ui/item_list.h"
 #include "app/ui/typed_number.h"
 #include "app/viewer/dropped_files.h"
 #include "app/viewer/picture_saver.h"
@@ -9,6 +10,7 @@
 #include "io/builder/scene_builder.h"
 #include "io/files/path_policy.h"
 #include "io/files/text_file.h"
+#include "io/ies/ies_reader.h"
 #include "io/images/image_file.h"
 #include "io/images/panorama_reader.h"
 #include "io/images/texels_reader.h"
@@ -58,6 +60,26 @@ void Viewer::light_with(std::shared_ptr<const Panorama> panorama, const FileStam
   watch_files(files);
 }
 
+void Viewer::shape_light_with(std::shared_ptr<const IesProfile> profile, const FileStamps& files) {
+  auto& lights = state_.document.scene.lights;
+  auto index = static_cast<std::size_t>(std::max(state_.selected_light, 0));
+  if (index >= lights.size() || !takes_profile(lights[index]))
+    index = static_cast<std::size_t>(std::ranges::find_if(lights, takes_profile) - lights.begin());
+  if (index >= lights.size()) {
+    state_.fail(
+        ErrorCause::open,
+        fmt::format("{}: there is no light that it could shape: add a point or spot light", profile->name));
+    return;
+  }
+  notify(fmt::format("{} shapes {}: see Lights", profile->name,
+                     name_or_number(lights[index].name, "Light", index)));
+  if (takes_panorama(lights[index])) set_panorama(lights[index], nullptr);
+  set_profile(lights[index], std::move(profile));
+  state_.selected_light = static_cast<int>(index);
+  state_.edited = true;
+  watch_files(files);
+}
+
 void Viewer::take_dropped(const std::vector<std::string>& paths) {
   if (paths.empty()) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -94,8 +116,8 @@ void Viewer::open_scene(const std::vector<std::string>& paths, bool reload) {
   state_.loading_path = paths.front();
   state_.loading_since = now_;
   state_.settle(ErrorCause::open);
-  if (!reload && !typing_ && !is_image_name(paths.front()))
-    state_.path_input = paths.front(); // a panorama's path is shown in its light
+  if (!reload && !typing_ && !is_image_name(paths.front()) && lower_ending(paths.front()) != ".ies")
+    state_.path_input = paths.front(); // a light's file is shown in the light
   const std::uint64_t request = ++open_requests_;
   state_.reading = true;
   ReadOptions options = options_.reading;
@@ -108,6 +130,13 @@ void Viewer::open_scene(const std::vector<std::string>& paths, bool reload) {
       const FileStamps stamps{{path, file_stamp(path)}};
       if (path.empty()) {
         problem = chosen.remark;
+      } else if (lower_ending(path) == ".ies") {
+        WarningList corrections(options.progress); // ignored, as for a panorama
+        return [this, request, profile = read_ies(path, corrections), stamps] {
+          if (request != open_requests_) return;
+          state_.reading = false;
+          shape_light_with(profile, stamps);
+        };
       } else if (auto panorama = panorama_without_scene(path, options.progress)) {
         return [this, chosen, request, panorama, stamps] {
           if (request != open_requests_) return;
@@ -235,9 +264,29 @@ void Viewer::read_panoramas_again(const std::set<std::string>& changed) {
         auto fresh = read_panorama(panorama->sources, corrections);
         return [this, panorama, fresh] {
           for (LightDesc& light : state_.document.scene.lights)
-            if (light_panorama(light) == panorama)
-              std::get<EnvironmentLightModel>(light.model).panorama = fresh, state_.edited = true;
+            if (light_panorama(light) == panorama) set_panorama(light, fresh), state_.edited = true;
           notify(fmt::format("{} was read again", panorama->name));
+        };
+      } catch (const std::exception& error) {
+        return [this, problem = std::string(error.what())] { state_.error = problem; };
+      }
+    });
+}
+
+void Viewer::read_profiles_again(const std::set<std::string>& changed) {
+  std::set<std::shared_ptr<const IesProfile>> old;
+  for (const LightDesc& light : state_.document.scene.lights)
+    if (const auto profile = light_profile(light); profile && changed.contains(profile->source))
+      old.insert(profile);
+  for (const auto& profile : old)
+    reader_.post([this, profile]() -> TaskThread::Completion {
+      try {
+        WarningList corrections;
+        auto fresh = read_ies(profile->source, corrections);
+        return [this, profile, fresh] {
+          for (LightDesc& light : state_.document.scene.lights)
+            if (light_profile(light) == profile) set_profile(light, fresh), state_.edited = true;
+          notify(fmt::format("{} was read again", profile->name));
         };
       } catch (const std::exception& error) {
         return [this, problem = std::string(error.what())] { state_.error = problem; };
@@ -254,6 +303,7 @@ void Viewer::look_for_changes() {
   };
   if (std::ranges::none_of(changed, is_the_scenes)) {
     read_panoramas_again(changed);
+    read_profiles_again(changed);
     // The same for dropped textures.
     for (const auto& texture : state_.document.scene.textures) {
       const ImageTexture* image = texture->image();

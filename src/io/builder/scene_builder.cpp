@@ -2,6 +2,7 @@
 
 #include "io/curves/curves_file.h"
 #include "io/files/text_file.h"
+#include "io/ies/ies_reader.h"
 #include "io/images/panorama_reader.h"
 #include "io/images/texels_reader.h"
 
@@ -99,6 +100,12 @@ std::shared_ptr<const Panorama> SceneBuilder::panorama(const std::vector<FoundFi
   auto& panorama = panoramas_[paths];
   if (!panorama) panorama = read_panorama(paths, warnings_);
   return panorama;
+}
+
+std::shared_ptr<const IesProfile> SceneBuilder::profile(const FoundFile& file) {
+  auto& profile = profiles_[file.canonical];
+  if (!profile) profile = read_ies(file.canonical, warnings_);
+  return profile;
 }
 
 std::string SceneBuilder::unused_material_name(const std::string& wish) const {

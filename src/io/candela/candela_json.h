@@ -32,7 +32,10 @@
 //
 // An environment light has a panorama: "file", or "files" (six faces of a cube: +x, -x, +y, -y, +z, -z), or
 // inline "image": {"name", "width", "height", "pixels": [3 width height numbers]}; without one it is
-// constant. For its "mapping" see lights/environment_map.h.
+// constant. For its "mapping" see lights/environment_map.h. A projector and a point light have a picture in
+// the same way, and a point or spot light a "profile": a photometric file, or its values inline
+// (io/candela/json_profile.h). Lights and materials may name a "group", which is switched and scaled in
+// "light_groups": [{"name", "on": true, "scale": 1}].
 //
 // Files are named relative to the scene's folder. A number or colour of a material may be a texture, which
 // gives factor * texel + offset: {"texture": …, "factor": 1, "offset": 0, "channel", "filter", "wrap",

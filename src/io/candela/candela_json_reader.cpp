@@ -26,8 +26,9 @@ public:
   CandelaReader& operator=(const CandelaReader&) = delete;
 
   Document run() {
-    constexpr std::string_view kKeys[] = {"candela", "description", "camera", "bookmarks", "materials",
-                                          "lights",  "textures",    "meshes", "instances", "settings"};
+    constexpr std::string_view kKeys[] = {"candela",   "description", "camera",       "bookmarks",
+                                          "materials", "lights",      "light_groups", "textures",
+                                          "meshes",    "instances",   "settings"};
     JsonValue root = tree_.root();
     expect(root, JsonType::object, "scene");
     std::map<std::string, JsonValue> parts;
@@ -59,6 +60,14 @@ public:
         scene.lights.push_back(read_json_light(object, element, builder_, source_.folder));
       });
     });
+    read("light_groups", [&](JsonValue array) {
+      source_.each_object(array, "light_groups", [&](JsonValue object, const std::string& element) {
+        scene.light_groups.push_back(read_json_light_group(object, element));
+      });
+      if (const std::string problem = light_groups_problem(scene); !problem.empty())
+        throw input_error(array.where(), "light_groups", problem.substr(0, problem.find("; ")),
+                          problem.substr(problem.find("; ") + 2));
+    });
     read("meshes", [&](JsonValue object) { instances_.read_meshes(object); });
     read("instances", [&](JsonValue array) { instances_.read_instances(array); });
     return std::move(document_);
@@ -73,7 +82,8 @@ private:
     };
     if (value.type() == JsonType::object) {
       for (auto [key, part] : value.members()) {
-        if (key.string() == "file" || key.string() == "texture" || key.string() == "diffuse_texture")
+        if (key.string() == "file" || key.string() == "profile" || key.string() == "texture" ||
+            key.string() == "diffuse_texture")
           expect_named(part);
         else if (key.string() == "files" && part.type() == JsonType::array)
           for (JsonValue name : part) expect_named(name);

@@ -5,6 +5,7 @@
 #include "io/candela/json_light.h"
 #include "io/candela/json_material.h"
 #include "io/candela/json_mesh.h"
+#include "io/candela/json_profile.h"
 #include "io/candela/json_texture.h"
 #include "io/files/atomic_file.h"
 
@@ -46,6 +47,7 @@ public:
     if (!natural_textures_) add("textures", "[", textures(), "]");
     add("materials", "[", materials(), "]");
     add("lights", "[", lights(), "]");
+    add("light_groups", "[", light_groups(), "]");
     add("meshes", "{", meshes(), "}");
     add("instances", "[", instances(), "]");
     add("settings", "{", settings(), "}");
@@ -157,7 +159,22 @@ private:
         members.push_back(fmt::format("\"type\": {}", json_quoted(light_type_name(light))));
       for (std::string& row : changed_rows(light_fields(light), light, "", default_light(light_type(light))))
         members.push_back(std::move(row));
+      if (!light.group.empty()) members.push_back(fmt::format("\"group\": {}", json_quoted(light.group)));
       if (const auto picture = light_panorama(light)) members.push_back(panorama(*picture));
+      if (const auto profile = light_profile(light))
+        members.push_back(fmt::format("\"profile\": {}", profile->source.empty()
+                                                             ? json_profile(*profile)
+                                                             : json_quoted(picture_path(profile->source))));
+      out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
+    }
+    return out;
+  }
+
+  std::vector<std::string> light_groups() const {
+    std::vector<std::string> out;
+    for (const LightGroup& group : scene_.light_groups) {
+      std::vector<std::string> members = changed_rows(light_group_fields(), group);
+      members.insert(members.begin(), fmt::format("\"name\": {}", json_quoted(group.name)));
       out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
     }
     return out;

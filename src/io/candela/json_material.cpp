@@ -126,13 +126,15 @@ Material read_json_material(JsonValue object, const std::string& element, const 
     if (key.string() == "type") continue;
     if (key.string() == "name")
       material.name = read_string(value, element + ".name");
+    else if (key.string() == "group")
+      material.group = read_string(value, element + ".group");
     else if (!read_value(material, key, value, element, textures, parts) &&
              !read_old_texture(material, key, value, element, textures) &&
              !read_for_other_types(kMaterialTypeCount, default_material, [&](Material& other) {
                std::vector<JsonMaterialPart> ignored;
                return read_value(other, key, value, element, textures, ignored);
              })) {
-      std::vector<std::string_view> known = {"name", "type", kOldTexture, kOldScale, kOldOffset};
+      std::vector<std::string_view> known = {"name", "type", "group", kOldTexture, kOldScale, kOldOffset};
       for (int t = 0; t < kMaterialTypeCount; ++t)
         for (const MaterialField& row : material_fields(t))
           if (std::ranges::find(known, row.key) == known.end()) known.push_back(row.key);
@@ -149,6 +151,7 @@ std::vector<std::string> json_material_members(const Material& material, const J
   std::vector<std::string> members;
   if (!material.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(material.name)));
   if (type != 0) members.push_back(fmt::format("\"type\": {}", json_quoted(material_type_name(material))));
+  if (!material.group.empty()) members.push_back(fmt::format("\"group\": {}", json_quoted(material.group)));
   for (const MaterialField& row : material_fields(type)) {
     if (row.parameter != nullptr && row.parameter(m).use().texture >= 0)
       members.push_back(

@@ -95,6 +95,12 @@ std::size_t set_environment(SceneDesc& scene, std::shared_ptr<const Panorama> pa
   auto is_environment = [](const LightDesc& l) {
     return std::holds_alternative<EnvironmentLightModel>(l.model);
   };
+  if (preferred < lights.size() && !is_environment(lights[preferred]) && takes_panorama(lights[preferred]) &&
+      (light_panorama(lights[preferred]) ||
+       std::holds_alternative<ProjectorLightModel>(lights[preferred].model))) {
+    set_panorama(lights[preferred], std::move(panorama));
+    return preferred;
+  }
   auto is_constant = [](const LightDesc& l) { return std::holds_alternative<ConstantLightModel>(l.model); };
   auto light = std::ranges::find_if(lights, is_environment);
   if (preferred < lights.size() && is_environment(lights[preferred]))
@@ -106,7 +112,7 @@ std::size_t set_environment(SceneDesc& scene, std::shared_ptr<const Panorama> pa
     light = lights.insert(lights.end(), fresh);
   }
   if (!is_environment(*light)) {
-    light->color = vec3(1), light->scale = 1;
+    light->color = vec3(1), light->scale = 1, light->temperature = 0;
     light->model = EnvironmentLightModel{};
   }
   auto& model = std::get<EnvironmentLightModel>(light->model);

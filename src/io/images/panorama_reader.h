@@ -22,8 +22,9 @@ std::string mapping_problem(EnvironmentMapping mapping, int width, int height);
 /// The mapping that fits the picture's proportions; latlong if none does.
 EnvironmentMapping likely_mapping(const Image& image);
 
-/// Sets the scene's environment to a panorama, with likely_mapping(): in the light `preferred` if that is an
-/// environment, else in the first environment, else replacing the first constant light, else as a new light.
+/// Gives a picture to the scene. Where the light `preferred` is a projector, or a point light that has a
+/// picture, it becomes the light's. Else it is the environment, with likely_mapping(): in `preferred` if that
+/// is one, else in the first environment, else replacing the first constant light, else as a new light.
 /// Returns the light's index.
 std::size_t set_environment(SceneDesc& scene, std::shared_ptr<const Panorama> panorama,
                             std::size_t preferred = 0);

@@ -43,7 +43,7 @@ void SceneMaterials::add_materials(const Document& document, const MipPyramidSou
   const OverrideSettings& o = document.settings.override_brdf;
   const Material overriding = o.is_on() ? overriding_material(o) : Material();
   std::vector<const Material*> scattering; // what each surface scatters by
-  for (const Material& own : document.scene.materials) {
+  for (const Material& own : source_) {
     const bool overridden = o.is_on() && !is_null(own);
     if (overridden) {
       Material m = own;
@@ -152,17 +152,32 @@ const EnvironmentMap* SceneLights::environment_map(const EnvironmentLightModel& 
   return map.get();
 }
 
+const SkyModel* SceneLights::sky(const SkyParameters& parameters, const SceneLights* previous,
+                                 const Progress* progress) {
+  auto fits = [&](const KnownSky& known) { return known.parameters == parameters; };
+  auto own = std::ranges::find_if(skies_, fits);
+  if (own != skies_.end()) return own->sky.get();
+  std::shared_ptr<const SkyModel> made;
+  if (previous != nullptr) {
+    auto known = std::ranges::find_if(previous->skies_, fits);
+    if (known != previous->skies_.end()) made = known->sky;
+  }
+  if (!made) made = std::make_shared<const SkyModel>(make_sky(parameters, progress));
+  return skies_.emplace_back(KnownSky{parameters, made}).sky.get();
+}
+
 void SceneLights::add_lights(const std::vector<LightDesc>& lights, const SceneLights* previous,
                              const Progress* progress) {
-  const EnvironmentMapSource maps = [&](const EnvironmentLightModel& m) {
-    return environment_map(m, previous, progress);
-  };
+  const LightResources resources{
+      [&](const EnvironmentLightModel& m) { return environment_map(m, previous, progress); },
+      [&](const SkyParameters& parameters) { return sky(parameters, previous, progress); }};
   for (const LightDesc& desc : lights) {
     if (is_black(desc.color * desc.scale)) continue;
-    const Light light = make_light(desc, maps);
-    if (light_kind(light) == LightKind::infinite)
-      infinite_lights_.push_back(static_cast<std::uint32_t>(lights_.size()));
-    lights_.push_back(light);
+    for (const Light& light : make_lights(desc, resources)) {
+      if (light_kind(light) == LightKind::infinite)
+        infinite_lights_.push_back(static_cast<std::uint32_t>(lights_.size()));
+      lights_.push_back(light);
+    }
   }
 }
 

@@ -14,6 +14,12 @@ bool is_same(const TexturedParameter* a, const TexturedParameter* b) {
          a->lowest == b->lowest && a->highest == b->highest;
 }
 
+/// Whether `known` is what `grouped` makes of the scene. Groups that change nothing need no copies.
+template <class Members, class Grouped>
+bool is_grouped(const Members& known, const SceneDesc& scene, const Members& own, Grouped grouped) {
+  return has_scaled_groups(scene) ? known == grouped(scene) : known == own;
+}
+
 } // namespace
 
 bool emits_alike(const SurfaceMaterial& a, const SurfaceMaterial& b) {
@@ -25,7 +31,7 @@ bool emits_alike(const SurfaceMaterial& a, const SurfaceMaterial& b) {
 
 SceneMaterials::SceneMaterials(const Document& document, const SceneMaterials* previous,
                                const Progress* progress)
-    : source_(document.scene.materials), textures_(document.scene.textures),
+    : source_(grouped_materials(document.scene)), textures_(document.scene.textures),
       override_(document.settings.override_brdf) {
   add_materials(document, [&](const ImageTexture& image, ColorSpace space) {
     auto fits = [&](const auto& pyramid) {
@@ -47,7 +53,8 @@ SceneMaterials::SceneMaterials(const Document& document, const SceneMaterials* p
 std::shared_ptr<const SceneMaterials> SceneMaterials::of(const Document& document,
                                                          std::shared_ptr<const SceneMaterials> previous,
                                                          const Progress* progress) {
-  if (previous != nullptr && previous->source_ == document.scene.materials &&
+  if (previous != nullptr &&
+      is_grouped(previous->source_, document.scene, document.scene.materials, grouped_materials) &&
       previous->textures_ == document.scene.textures &&
       previous->override_ == document.settings.override_brdf)
     return previous;
@@ -71,7 +78,7 @@ SceneLights::SceneLights(const Document& document, std::shared_ptr<const Geometr
                          std::shared_ptr<const SceneMaterials> materials, const SceneLights* previous,
                          const Progress* progress)
     : geometry_(std::move(geometry)), kept_materials_(std::move(materials)), materials_(*kept_materials_),
-      source_(document.scene.lights), light_choice_(document.settings.path.light_choice) {
+      source_(grouped_lights(document.scene)), light_choice_(document.settings.path.light_choice) {
   add_emitters(previous, progress);
   add_lights(source_, previous, progress);
   add_selections(progress);
@@ -82,7 +89,8 @@ std::shared_ptr<const SceneLights> SceneLights::of(const Document& document,
                                                    const std::shared_ptr<const SceneMaterials>& materials,
                                                    std::shared_ptr<const SceneLights> previous,
                                                    const Progress* progress) {
-  if (previous != nullptr && previous->geometry_ == geometry && previous->source_ == document.scene.lights &&
+  if (previous != nullptr && previous->geometry_ == geometry &&
+      is_grouped(previous->source_, document.scene, document.scene.lights, grouped_lights) &&
       previous->light_choice_ == document.settings.path.light_choice &&
       std::ranges::equal(previous->materials_, *materials, emits_alike))
     return previous;
@@ -107,6 +115,7 @@ std::size_t SceneLights::memory_bytes() const {
   for (const RectangleEmission& shown : emission_tables_)
     if (shown.table->grid) bytes += shown.table->grid->memory_bytes();
   for (const auto& map : environment_maps_) bytes += map->memory_bytes();
+  for (const KnownSky& known : skies_) bytes += known.sky->sky->image.pixels.size() * sizeof(vec3);
   return bytes;
 }
 

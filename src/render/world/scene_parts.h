@@ -45,7 +45,7 @@ private:
   void add_media(const std::vector<const Material*>& materials);
 
   // Made of:
-  std::vector<Material> source_;
+  std::vector<Material> source_; ///< with the factors of their groups
   std::vector<std::shared_ptr<const Texture>> textures_;
   OverrideSettings override_;
 
@@ -97,6 +97,11 @@ private:
     std::shared_ptr<const EmissionTable> table;
   };
 
+  struct KnownSky {
+    SkyParameters parameters;
+    std::shared_ptr<const SkyModel> sky;
+  };
+
   void add_emitters(const SceneLights* previous, const Progress* progress);
   const EmissionTable& emission_table(const SurfaceMaterial& material, bool mirrored,
                                       const SceneLights* previous, const Progress* progress);
@@ -105,13 +110,14 @@ private:
                   const Progress* progress);
   const EnvironmentMap* environment_map(const EnvironmentLightModel& light, const SceneLights* previous,
                                         const Progress* progress);
+  const SkyModel* sky(const SkyParameters& parameters, const SceneLights* previous, const Progress* progress);
   void add_selections(const Progress* progress);
 
   // Made of:
   std::shared_ptr<const Geometry> geometry_;
   std::shared_ptr<const SceneMaterials> kept_materials_;
   const SceneMaterials& materials_; ///< *kept_materials_
-  std::vector<LightDesc> source_;
+  std::vector<LightDesc> source_;   ///< the same; lights_ point to their files
   LightChoiceBy light_choice_;
 
   std::vector<Light> lights_;
@@ -120,6 +126,7 @@ private:
   std::vector<RectangleEmission> emission_tables_; ///< what lights_ point to
   std::vector<std::uint32_t> infinite_lights_;
   std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
+  std::vector<KnownSky> skies_;                                         ///< what environment_maps_ show
   LightSelection all_lights_, delta_lights_;
 };
 

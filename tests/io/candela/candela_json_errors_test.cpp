@@ -181,8 +181,9 @@ const JsonError kErrors[] = {
      "s.json:1:60: lights[0].cutoff_angle: ", "180"},
     {"Attenuation", "{\"candela\": 1, \"lights\": [{\"attenuation\": [0,0,0]}]}",
      "s.json:1:27: lights[0]: ", "1 / r^2"},
-    {"PictureOfAPoint",
-     "{\"candela\": 1, \"lights\": [{\"image\": {\"width\": 1, \"height\": 1, \"pixels\": [1,1,1]}}]}",
+    {"PictureOfASpot",
+     "{\"candela\": 1, \"lights\": [{\"image\": {\"width\": 1, \"height\": 1, \"pixels\": [1,1,1]}, "
+     "\"type\": \"spot\"}]}",
      "s.json:1:37: lights[0]: ", "only an environment"},
     {"PanoramaMissing", "{\"candela\": 1, \"lights\": [{\"type\": \"environment\", \"file\": \"sky.exr\"}]}",
      "s.json:1:59: lights[0].file: ", "no file 'sky.exr'"},

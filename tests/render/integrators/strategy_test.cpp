@@ -98,6 +98,7 @@ TEST(StrategyStatistical, EnvironmentAndSpot) { expect_one_expectation(strategy_
 TEST(StrategyStatistical, CoarseSmoothGloss) { expect_one_expectation(strategy_scenes()[7], 1024); }
 TEST(StrategyStatistical, TexturedLamps) { expect_one_expectation(strategy_scenes()[8], 512); }
 TEST(StrategyStatistical, FilteredTextures) { expect_one_expectation(strategy_scenes()[9], 512); }
+TEST(StrategyStatistical, ShapedLights) { expect_one_expectation(strategy_scenes()[10], 512); }
 
 /// Everything with everything.
 void expect_all_combinations_agree(const NamedScene& scene) {
@@ -129,6 +130,7 @@ TEST(StrategyHeavy, EnvironmentAndSpot) { expect_all_combinations_agree(strategy
 TEST(StrategyHeavy, CoarseSmoothGloss) { expect_all_combinations_agree(strategy_scenes()[7]); }
 TEST(StrategyHeavy, TexturedLamps) { expect_all_combinations_agree(strategy_scenes()[8]); }
 TEST(StrategyHeavy, FilteredTextures) { expect_all_combinations_agree(strategy_scenes()[9]); }
+TEST(StrategyHeavy, ShapedLights) { expect_all_combinations_agree(strategy_scenes()[10]); }
 
 TEST(StrategyStatistical, RouletteKeepsTheMeanOfUnlimitedPaths) {
   Document d = mirror_and_glass_scene();

@@ -87,6 +87,56 @@ TEST_F(SceneParts, AMaterialsEditKeepsLightsUnlessItsEmissionChanged) {
       << "another list of materials";
 }
 
+TEST_F(SceneParts, AGroupsEditScalesItsLightsAlone) {
+  auto name = [](Document& d) { d.scene.lights[0].group = "lamps"; };
+  name(document_);
+  scene_ = RenderScene::build(document_, scene_.get());
+  EXPECT_EQ(kept([](Document& d) { d.scene.light_groups = {{"lamps"}}; }), kAll) << "as it was";
+  auto scaled = [&](bool on, float scale) {
+    Document edited = document_;
+    edited.scene.light_groups = {{"lamps", on, scale}};
+    return RenderScene::build(edited, scene_.get());
+  };
+  auto brightness = [](const RenderScene& scene) {
+    for (const Light& light : scene.lights())
+      if (const auto* point = std::get_if<PointLight>(&light)) return point->intensity.x;
+    return 0.0f;
+  };
+  EXPECT_EQ(brightness(*scaled(true, 3)), 3e5f);
+  EXPECT_EQ(brightness(*scaled(false, 3)), 0) << "it is not there";
+  EXPECT_EQ(scaled(true, 3)->shared_materials(), scene_->shared_materials());
+  EXPECT_EQ(scaled(true, 3)->shared_geometry(), scene_->shared_geometry());
+  // Materials that shine, too.
+  document_.scene.materials[emitting_material()].group = "lamps";
+  scene_ = RenderScene::build(document_, scene_.get());
+  const std::size_t lights = scene_->lights().size();
+  EXPECT_LT(scaled(false, 1)->lights().size(), lights - 1);
+  const auto twice = scaled(true, 2);
+  EXPECT_EQ(twice->material(static_cast<std::uint32_t>(emitting_material())).emission,
+            2.0f * scene_->material(static_cast<std::uint32_t>(emitting_material())).emission);
+}
+
+TEST_F(SceneParts, AComputedSkyIsKeptUntilItsAirOrSunChanges) {
+  SkyLightModel sky{.resolution = 32};
+  document_.scene.lights.push_back({"sky", sky});
+  scene_ = RenderScene::build(document_);
+  auto map_after = [&](auto edit) {
+    Document edited = document_;
+    edit(std::get<SkyLightModel>(edited.scene.lights.back().model));
+    const auto after = RenderScene::build(edited, scene_.get());
+    return std::get<EnvironmentLight>(after->lights()[after->lights().size() - 2]).map;
+  };
+  const auto* before = std::get<EnvironmentLight>(scene_->lights()[scene_->lights().size() - 2]).map;
+  EXPECT_EQ(map_after([](SkyLightModel& m) { m.rotation = 1; }), before);
+  EXPECT_EQ(map_after([](SkyLightModel& m) { m.sun_scale = 2; }), before);
+  EXPECT_EQ(map_after([](SkyLightModel& m) { m.hour = 3; }), before) << "not asked for";
+  EXPECT_NE(map_after([](SkyLightModel& m) { m.turbidity = 3; }), before);
+  EXPECT_NE(map_after([](SkyLightModel& m) { m.sun_elevation = 0.3f; }), before);
+  Progress told;
+  told.cancel();
+  EXPECT_THROW(RenderScene::build(document_, nullptr, &told), Cancelled);
+}
+
 TEST_F(SceneParts, AMovedInstanceKeepsMaterials) {
   EXPECT_EQ(kept([](Document& d) { d.scene.instances[0].world_from_object[3].y += 1; }),
             (Kept{false, true, false}));
