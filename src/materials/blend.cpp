@@ -126,5 +126,8 @@ void Blend::set_tangent(vec2 tangent) {
 void Blend::set_outside_ior(float outside) {
   for (BlendPart& part : parts_of(*this)) candela::set_outside_ior(part.bsdf, outside);
 }
+void Blend::set_fibre_offset(float h) {
+  for (BlendPart& part : parts_of(*this)) candela::set_fibre_offset(part.bsdf, h);
+}
 
 } // namespace candela

@@ -30,6 +30,7 @@ struct Blend {
   bool is_anisotropic() const;
   void set_tangent(vec2 tangent);
   void set_outside_ior(float outside);
+  void set_fibre_offset(float h);
 };
 
 } // namespace candela

@@ -144,11 +144,14 @@ inline void set_tangent(Bsdf& bsdf, vec2 tangent) {
       },
       bsdf);
 }
-/// By its member `closure.h`, where it has that: where on a fibre the surface was met (Hair::h).
+/// Where on a fibre the surface was met (Hair::h): by the member `closure.h`, or that of its parts.
 inline void set_fibre_offset(Bsdf& bsdf, float h) {
   visit_variant(
       [&](auto& model) {
-        if constexpr (requires { model.closure.h; }) model.closure.h = h;
+        if constexpr (requires { model.closure.h; })
+          model.closure.h = h;
+        else if constexpr (requires { model.set_fibre_offset(h); })
+          model.set_fibre_offset(h);
       },
       bsdf);
 }

@@ -191,6 +191,11 @@ public:
   }
   /// Scrolls the panels until the widget is visible, and returns its centre.
   vec2 reveal(const std::string& name) {
+    // Lists out of sight have no items.
+    if (const auto slash = name.find('/'); slash != std::string::npos && !find(name)) {
+      const std::string items = name.starts_with("emitters/") ? "lights" : name.substr(0, slash);
+      if (find("list." + items)) reveal("list." + items), frame(2);
+    }
     for (int i = 0; i < 300; ++i) {
       const auto widget = find(name);
       if (!widget) break;

@@ -66,6 +66,12 @@ private:
       break;
     }
     case FieldType::choice: *static_cast<int*>(address) = pick(static_cast<int>(row.choices.size())); break;
+    case FieldType::material: { // of those before, so that none is a part of itself; null cannot be one
+      const int part = pick(static_cast<int>(scene().materials.size()) + 1) - 1;
+      const bool fits = part >= 0 && !is_null(scene().materials[static_cast<std::size_t>(part)]);
+      *static_cast<int*>(address) = fits ? part : -1;
+      break;
+    }
     case FieldType::real: *static_cast<float*>(address) = value_of(row); break;
     case FieldType::angle: *static_cast<float*>(address) = radians(value_of(row)); break;
     case FieldType::point: *static_cast<vec3*>(address) = one_in(4) ? direction() : point(3); break;
@@ -154,6 +160,22 @@ private:
     return m;
   }
 
+  /// Points and widths may coincide or be 0.
+  std::shared_ptr<const Strands> strands() {
+    Strands s;
+    s.basis = static_cast<CurveBasis>(pick(2));
+    const int count = 1 + pick(3);
+    for (int i = 0; i < count; ++i) {
+      const int points = s.basis == CurveBasis::bspline ? 4 + pick(4) : 4 + 3 * pick(3);
+      s.counts.push_back(static_cast<std::uint32_t>(points));
+      for (int j = 0; j < points; ++j)
+        s.points.push_back(one_in(5) && !s.points.empty() ? s.points.back() : point(1));
+    }
+    s.widths.resize(one_in(2) ? 2 : s.points.size());
+    for (float& width : s.widths) width = one_in(5) ? 0 : number(0, 0.3f);
+    return std::make_shared<const Strands>(std::move(s));
+  }
+
   mat4 transform() {
     mat4 m = glm::translate(mat4(1), point(one_in(10) ? 1e5f : 1.5f));
     m = glm::rotate(m, number(0, 6), direction());
@@ -168,6 +190,7 @@ private:
     std::optional<Shape> shape =
         shape_of_name(names[static_cast<std::size_t>(pick(static_cast<int>(names.size())))]);
     if (!shape) shape = std::make_shared<const Mesh>(mesh());
+    if (auto* curves = std::get_if<CurvesShape>(&*shape)) curves->strands = strands();
     for (const Field<Shape>& row : shape_fields(*shape)) {
       Shape changed = *shape;
       randomise(row, row.address(changed));

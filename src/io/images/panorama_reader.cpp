@@ -95,9 +95,9 @@ std::size_t set_environment(SceneDesc& scene, std::shared_ptr<const Panorama> pa
   auto is_environment = [](const LightDesc& l) {
     return std::holds_alternative<EnvironmentLightModel>(l.model);
   };
+  // A lamp that shows a picture shows another one; one that may have a profile instead does not begin to.
   if (preferred < lights.size() && !is_environment(lights[preferred]) && takes_panorama(lights[preferred]) &&
-      (light_panorama(lights[preferred]) ||
-       std::holds_alternative<ProjectorLightModel>(lights[preferred].model))) {
+      (light_panorama(lights[preferred]) || !takes_profile(lights[preferred]))) {
     set_panorama(lights[preferred], std::move(panorama));
     return preferred;
   }

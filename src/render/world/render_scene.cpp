@@ -50,7 +50,7 @@ void SceneMaterials::add_materials(const Document& document, const MipPyramidSou
       m.model = overriding.model;
       materials_.add(m, textures_, pyramids);
     } else {
-      materials_.add(own, textures_, pyramids, document.scene.materials);
+      materials_.add(own, textures_, pyramids, source_);
     }
     scattering.push_back(overridden ? &overriding : &own);
     has_invisible_ |= is_null(own);

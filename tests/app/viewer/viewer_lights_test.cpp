@@ -31,6 +31,7 @@ TEST(ViewerLightsUi, ADroppedPhotometricFileShapesALight) {
   hand.frame(3);
   hand.screenshot("photometric_light");
   hand.click("light.remove");
+  hand.frame(2);
   EXPECT_FALSE(profile());
   EXPECT_FALSE(hand.find("light.remove"));
   // By its path; a broken one changes nothing.
@@ -100,6 +101,9 @@ TEST(ViewerLightsUi, GroupsAreNamedSwitchedAndScaled) {
   hand.screenshot("light_groups");
   // A surface that shines may join.
   hand.click("emitters/3");
+  hand.frame(3);
+  hand.reveal("light.group");
+  hand.frame(3);
   hand.click("light.group");
   hand.type("lamp");
   hand.frame(2);

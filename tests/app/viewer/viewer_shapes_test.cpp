@@ -78,6 +78,10 @@ TEST(ViewerShapesUi, EveryValueIsEditedUndoneAndKeptWithinItsLimits) {
         hand.click(name);
         hand.frame(2);
         EXPECT_NE(text(), before);
+      } else if (row.type == FieldType::choice) {
+        hand.choose(name, std::string(row.choices.back()));
+        EXPECT_EQ(text(), row.choices.back());
+        EXPECT_NE(text(), before);
       } else {
         for (const char* typed : {"0", "-3", "1e30", "0.2"}) {
           hand.type_into(name, typed);
