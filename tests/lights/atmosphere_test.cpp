@@ -227,7 +227,8 @@ TEST(AtmosphereLight, IsThatOfRandomWalksStatistical) {
       const Atmosphere air(turbidity, 300, 0.3f);
       const AtmosphereLight light(air, sun * kDegree);
       const dvec3 to_sun(std::cos(sun * kDegree), 0, std::sin(sun * kDegree));
-      for (auto [elevation, azimuth] : {std::pair{89.0, 0.0}, {30.0, 90.0}, {8.0, 180.0}}) {
+      // Not within some degrees of the sun: there most light comes by few walks, whose spread says little.
+      for (auto [elevation, azimuth] : {std::pair{72.0, 0.0}, {30.0, 90.0}, {8.0, 180.0}}) {
         const double e = elevation * kDegree, a = azimuth * kDegree;
         SkyBands once, all;
         light.radiance_scattered_once(e, a, once);
