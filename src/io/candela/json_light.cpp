@@ -164,9 +164,10 @@ LightDesc read_json_light(JsonValue object, const std::string& element, SceneBui
       files.read(key, value);
     } else if (read_row(light_fields(light), light, key, value, element)) {
       if (key.string() == "mapping") mapping = value;
-    } else if (read_for_other_types(kLightTypeCount, default_light, [&](LightDesc& other) {
-                 return read_row(light_fields(other), other, key, value, element);
-               })) {
+    } else if (read_for_other_types(kLightTypeCount, default_light,
+                                    [&, &key = key, &value = value](LightDesc& other) {
+                                      return read_row(light_fields(other), other, key, value, element);
+                                    })) {
       builder.warnings().add(key.where(), fmt::format("{}: a light of the type {} has no such value", name,
                                                       light_type_name(light)));
     } else {

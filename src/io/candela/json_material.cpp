@@ -130,10 +130,11 @@ Material read_json_material(JsonValue object, const std::string& element, const 
       material.group = read_string(value, element + ".group");
     else if (!read_value(material, key, value, element, textures, parts) &&
              !read_old_texture(material, key, value, element, textures) &&
-             !read_for_other_types(kMaterialTypeCount, default_material, [&](Material& other) {
-               std::vector<JsonMaterialPart> ignored;
-               return read_value(other, key, value, element, textures, ignored);
-             })) {
+             !read_for_other_types(kMaterialTypeCount, default_material,
+                                   [&, &key = key, &value = value](Material& other) {
+                                     std::vector<JsonMaterialPart> ignored;
+                                     return read_value(other, key, value, element, textures, ignored);
+                                   })) {
       std::vector<std::string_view> known = {"name", "type", "group", kOldTexture, kOldScale, kOldOffset};
       for (int t = 0; t < kMaterialTypeCount; ++t)
         for (const MaterialField& row : material_fields(t))
