@@ -45,6 +45,15 @@ constexpr bool are_bsdf_models(const std::variant<Models...>*) {
 }
 static_assert(are_bsdf_models(static_cast<const Bsdf*>(nullptr)));
 
+template <class Closure>
+[[gnu::always_inline]] inline std::optional<BsdfSample> closure_sample(const Closure& closure, vec3 wo,
+                                                                       BsdfU u, TransportMode mode) {
+  if constexpr (requires { closure.sample(wo, u, mode); })
+    return closure.sample(wo, u, mode);
+  else
+    return closure.sample(wo, u);
+}
+
 } // namespace detail
 
 // As BsdfModel's members of the same names. Of symmetric models the mode makes no difference.
@@ -76,14 +85,7 @@ inline BsdfEval bsdf_eval_pdf(const Bsdf& bsdf, vec3 wo, vec3 wi,
 /// Inlined, for a result that is copied from where a call has just written it stalls the processor.
 [[gnu::always_inline]] inline std::optional<BsdfSample>
 bsdf_sample(const Bsdf& bsdf, vec3 wo, BsdfU u, TransportMode mode = TransportMode::radiance) {
-  return visit_variant(
-      [&](const auto& model) {
-        if constexpr (requires { model.sample(wo, u, mode); })
-          return model.sample(wo, u, mode);
-        else
-          return model.sample(wo, u);
-      },
-      bsdf);
+  return visit_variant([&](const auto& model) { return detail::closure_sample(model, wo, u, mode); }, bsdf);
 }
 inline float bsdf_delta_probability(const Bsdf& bsdf, vec3 wo) {
   return visit_variant([&](const auto& model) { return model.delta_probability(wo); }, bsdf);
@@ -125,9 +127,9 @@ inline bool is_anisotropic(const Bsdf& bsdf) {
 /// Whether closures of the type may be anisotropic.
 inline bool has_tangent(const Bsdf& bsdf) {
   return visit_variant(
-      [](const auto& model) {
-        return requires { model.axis; }
-        || std::is_same_v<std::decay_t<decltype(model)>, Blend>;
+      []<class Closure>(const Closure&) {
+        return requires(Closure & c) { c.axis; }
+        || requires(Closure & c) { c.set_tangent(vec2(1, 0)); };
       },
       bsdf);
 }

@@ -45,10 +45,7 @@ void sample_directions(std::span<const Bsdf* const> bsdfs, DirectionSampling how
     return;
   }
   for_each_closure(bsdfs, [&](const auto& closure, std::size_t k) {
-    if constexpr (requires { closure.sample(wo(k), u(k), TransportMode::radiance); })
-      out(k, closure.sample(wo(k), u(k), TransportMode::radiance));
-    else
-      out(k, closure.sample(wo(k), u(k)));
+    out(k, detail::closure_sample(closure, wo(k), u(k), TransportMode::radiance));
   });
 }
 

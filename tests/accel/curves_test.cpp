@@ -229,12 +229,12 @@ TEST(CurvesStatistical, RaysLeaveRibbonsWhereTheyBegin) {
       const Ray ray = ray_near(random, c, 0.01f);
       const auto hit = intersect_curve(c, CurveRay(ray, 0, kInfinity));
       if (!hit) continue;
-      const Ray onward{ray.at(hit->t), 0, random.direction(), kInfinity};
+      const Ray leaving{ray.at(hit->t), 0, random.direction(), kInfinity};
       const vec3 chord = glm::normalize(vec3(c.points[3] - c.points[0]));
       const float limit = bend > 0 ? 0.9f : 0.9997f;
-      if (std::abs(glm::dot(chord, glm::normalize(onward.direction))) > limit) continue;
+      if (std::abs(glm::dot(chord, glm::normalize(leaving.direction))) > limit) continue;
       ++left;
-      ASSERT_FALSE(intersect_curve(c, CurveRay(onward, 0, kInfinity)));
+      ASSERT_FALSE(intersect_curve(c, CurveRay(leaving, 0, kInfinity)));
     }
   EXPECT_GT(left, 3000);
 }

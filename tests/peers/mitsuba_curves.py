@@ -8,14 +8,12 @@ balls, for ours are closed there and Mitsuba's are not.
 Exit status 0: they agree; 1: they do not; 77: Mitsuba cannot be imported (skipped).
 """
 
-import json
 import random
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from mitsuba_materials import SEEDS, SIZE, SPP, compare, mi, np, read_pfm, rgb, statistics
+from mitsuba_materials import SEEDS, SIZE, SPP, compare, mi, mitsuba_camera, np, render_candela, rgb, statistics
 
 DIFFUSE = ({"type": "diffuse", "diffuse": [0.8, 0.5, 0.2]}, {"type": "diffuse", "reflectance": rgb(0.8, 0.5, 0.2)})
 
@@ -66,11 +64,7 @@ def mitsuba_scene(radii, bsdf, folder):
     file = folder / "strands.txt"
     file.write_text("\n\n".join("\n".join("%.9g %.9g %.9g %.9g" % p for p in s) for s in strands(radii)) + "\n")
     scene = {"type": "scene", "integrator": {"type": "path", "max_depth": -1},
-             "sensor": {"type": "perspective", "fov": 36, "fov_axis": "y",
-                        "to_world": T().look_at([0, 0.2, 4], [0, 0, 0], [0, 1, 0]),
-                        "film": {"type": "hdrfilm", "width": SIZE, "height": SIZE, "rfilter": {"type": "box"},
-                                 "component_format": "float32", "pixel_format": "rgb"},
-                        "sampler": {"type": "independent"}},
+             "sensor": mitsuba_camera([0, 0.2, 4]),
              "sky": {"type": "constant", "radiance": rgb(0.5, 0.5, 0.5)},
              "strands": {"type": "bsplinecurve", "filename": str(file), "bsdf": bsdf},
              "lamp": {"type": "rectangle", "to_world": T().translate([1.5, 1.2, 3.5]) @ T().rotate([0, 1, 0], 180) @ T().scale(0.7),
@@ -80,18 +74,6 @@ def mitsuba_scene(radii, bsdf, folder):
     for i, (x, y, z, r) in enumerate(BALLS):
         scene[f"ball{i}"] = {"type": "sphere", "center": [x, y, z], "radius": r, "bsdf": grey}
     return mi.load_dict(scene)
-
-
-def render_candela(program, scene, folder):
-    file, out = folder / "scene.json", folder / "out.pfm"
-    file.write_text(json.dumps(scene))
-    pictures = []
-    for _ in range(SEEDS):
-        subprocess.run([program, "render", str(file), "-o", str(out), "--spp", str(SPP), "--seed",
-                        str(random.randrange(2 ** 31)), "--quiet", "--no-state", "--set", "sampler.type=independent"],
-                       check=True)
-        pictures.append(read_pfm(out))
-    return statistics(pictures)
 
 
 def main():

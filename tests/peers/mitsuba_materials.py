@@ -115,6 +115,15 @@ def rgb(*color):
     return {"type": "rgb", "value": list(color)}
 
 
+def mitsuba_camera(position):
+    """Looks at the origin."""
+    return {"type": "perspective", "fov": 36, "fov_axis": "y",
+            "to_world": mi.ScalarTransform4f().look_at(position, [0, 0, 0], [0, 1, 0]),
+            "film": {"type": "hdrfilm", "width": SIZE, "height": SIZE, "rfilter": {"type": "box"},
+                     "component_format": "float32", "pixel_format": "rgb"},
+            "sampler": {"type": "independent"}}
+
+
 # A ball under a grey sky between two lamps, one near.
 LAMPS = [([2.5, 2.0, 1.5], 0.8, [12.0, 10.0, 8.0]), ([-3.0, 0.5, -1.0], 1.5, [3.0, 4.0, 6.0])]
 
@@ -144,11 +153,7 @@ def candela_scene(material):
 def mitsuba_scene(bsdf):
     T = mi.ScalarTransform4f
     scene = {"type": "scene", "integrator": {"type": "path", "max_depth": -1},
-             "sensor": {"type": "perspective", "fov": 36, "fov_axis": "y",
-                        "to_world": T().look_at([0, 0, 4], [0, 0, 0], [0, 1, 0]),
-                        "film": {"type": "hdrfilm", "width": SIZE, "height": SIZE, "rfilter": {"type": "box"},
-                                 "component_format": "float32", "pixel_format": "rgb"},
-                        "sampler": {"type": "independent"}},
+             "sensor": mitsuba_camera([0, 0, 4]),
              "sky": {"type": "constant", "radiance": rgb(0.5, 0.5, 0.5)},
              "ball": {"type": "sphere", "bsdf": bsdf}}
     for i, (position, size, emission) in enumerate(LAMPS):
@@ -179,12 +184,11 @@ def statistics(pictures):
     return (b.mean(0), b.var(0, ddof=1) / len(b)), (whole.mean(0), whole.var(0, ddof=1) / len(b))
 
 
-def render_candela(program, material, folder):
-    file = folder / "scene.json"
-    file.write_text(json.dumps(candela_scene(material)))
+def render_candela(program, scene, folder):
+    file, out = folder / "scene.json", folder / "out.pfm"
+    file.write_text(json.dumps(scene))
     pictures = []
     for _ in range(SEEDS):
-        out = folder / "out.pfm"
         subprocess.run([program, "render", str(file), "-o", str(out), "--spp", str(SPP), "--seed",
                         str(random.randrange(2 ** 31)), "--quiet", "--no-state", "--set", "sampler.type=independent"],
                        check=True)
@@ -232,7 +236,8 @@ def main():
     bad = 0
     with tempfile.TemporaryDirectory() as folder:
         for name, material, bsdf in chosen:
-            bad += not compare(name, render_candela(program, material, Path(folder)), render_mitsuba(bsdf), len(chosen))
+            ours = render_candela(program, candela_scene(material), Path(folder))
+            bad += not compare(name, ours, render_mitsuba(bsdf), len(chosen))
     print(f"{len(chosen) - bad} of {len(chosen)} materials agree with Mitsuba {mi.__version__}")
     return 1 if bad else 0
 

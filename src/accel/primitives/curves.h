@@ -7,6 +7,7 @@
 // within the tube about it does not hit it there, so that a ray never hits the spot that it leaves.
 
 #include "accel/primitives/pack.h"
+#include "core/basis.h"
 
 #include <optional>
 
@@ -19,10 +20,10 @@ struct CurveSegment {
     tube = 0,
     ribbon = 1,
     /// A ball closes the tube, or a disc that faces the ray the ribbon: at the ends of tubes and where
-    /// strands have a corner. Elsewhere the next piece goes on in the same direction.
+    /// strands have a corner. Elsewhere the next piece continues in the same direction.
     closed_start = 2,
     closed_end = 4,
-    /// Nothing goes on here, nor is it closed: the ends of ribbons.
+    /// Neither continued nor closed: the ends of ribbons.
     cut_start = 8,
     cut_end = 16,
   };
@@ -56,10 +57,10 @@ struct CurveRay {
 
 struct CurveHit {
   float t;
-  float u; ///< of the segment, 0 to 1; beyond by kCurveOverlap at most, where it goes on
+  float u; ///< of the segment, 0 to 1; beyond by kCurveOverlap at most, where it continues
 };
 
-/// Pieces that go on beyond an end are tested that much farther, so that what rounds differently in both
+/// Pieces that continue beyond an end are tested that much farther, so that what rounds differently in both
 /// leaves no gap between them.
 inline constexpr double kCurveOverlap = 0x1p-10;
 
@@ -90,7 +91,7 @@ struct Curves {
       radius = std::max(radius, point.w);
     }
     if (!(radius > 0)) return {};
-    // What goes on beyond the ends: the tangents there, by the overlap, and half as much again.
+    // What continues beyond the ends: the tangents there, by the overlap, and half as much again.
     const vec3 beyond =
         glm::max(glm::abs(vec3(p[1] - p[0])), glm::abs(vec3(p[3] - p[2]))) * (4.5f * kOverlap);
     return accel_detail::padded(hull.center(),
@@ -148,10 +149,8 @@ private:
   /// out. Unused lanes are NaN or infinite, and out.
   template <class F>
   static simd::LaneMask near_lanes(const Pack& pack, const Ray& ray) {
-    const vec3 along = glm::normalize(ray.direction);
-    const float sign = std::copysign(1.0f, along.z), a = -1 / (sign + along.z), b = along.x * along.y * a;
-    const vec3 axis_x(1 + sign * along.x * along.x * a, sign * b, -sign * along.x),
-        axis_y(b, sign + along.y * along.y * a, -along.y); // Duff et al. 2017, as core/basis.h
+    const Basis across = Basis::from_normal(glm::normalize(ray.direction));
+    const vec3 axis_x = across.s, axis_y = across.t;
     std::array<F, 4> x, y;
     F radius(0.0f), reach(0.0f);
     for (std::size_t k = 0; k < 4; ++k) {

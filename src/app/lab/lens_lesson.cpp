@@ -18,6 +18,46 @@ std::span<const std::string_view> lens_names() {
   return names;
 }
 
+Plot blur_plot(const LensSystem& lens) {
+  Plot plot;
+  plot.title = "Spot of a point on the axis, mm";
+  plot.x = {"distance, m", true};
+  plot.y = {"", true};
+  PlotSeries through{"this lens", {}}, thin{"a thin lens", {}};
+  constexpr int kSteps = 96;
+  const double nearest = 2e-3 * lens.focal_length(), farthest = 1000;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double metres = nearest * std::pow(farthest / nearest, static_cast<double>(i) / kSteps);
+    const auto distance = static_cast<float>(1000 * metres);
+    through.points.push_back({metres, static_cast<double>(lens_blur(lens, distance))});
+    thin.points.push_back({metres, static_cast<double>(thin_lens_blur(lens, distance))});
+  }
+  plot.series = {std::move(through), std::move(thin)};
+  return plot;
+}
+
+Plot vignetting_plot(const LensSystem& lens) {
+  Plot plot;
+  plot.title = "Light over the film's radius";
+  plot.x = {"radius, mm", false, true};
+  plot.y = {"", false, true};
+  PlotSeries through{"this lens", {}};
+  constexpr int kRadii = 16;
+  for (int i = 0; i <= kRadii; ++i) {
+    const float radius = kFilmRadius * static_cast<float>(i) / kRadii;
+    through.points.push_back({static_cast<double>(radius), lens.relative_illumination(radius)});
+  }
+  // As seen from the paraxial exit pupil, without vignetting by openings.
+  PlotSeries cosines{"cos^4", {}, true};
+  const double distance = lens.exit_pupil().z + static_cast<double>(lens.film_distance());
+  for (const PlotPoint& p : through.points) {
+    const double cos2 = 1 / (1 + std::pow(p.x / distance, 2));
+    cosines.points.push_back({p.x, through.points.front().y * cos2 * cos2});
+  }
+  plot.series = {std::move(through), std::move(cosines)};
+  return plot;
+}
+
 } // namespace
 
 std::span<const Field<LensOptions>> lens_fields() {
@@ -49,11 +89,7 @@ LensLesson::LensLesson(const LensOptions& options, SampleSource source, std::uin
   const LensPrescription& lens = kLenses[static_cast<std::size_t>(options.lens)];
   lens_ = LensSystem::shared(lens.interfaces,
                              {lens.focal_length, options.f_stop, 1000 * options.focus, kFilmRadius, 0, 0});
-  constexpr int kRadii = 16;
-  for (int i = 0; i <= kRadii; ++i) {
-    const float radius = kFilmRadius * static_cast<float>(i) / kRadii;
-    vignetting_.push_back({static_cast<double>(radius), lens_->relative_illumination(radius)});
-  }
+  plots_ = std::make_shared<const Plots>(Plots{candela::blur_plot(*lens_), candela::vignetting_plot(*lens_)});
 }
 
 void LensLesson::advance(std::uint64_t count) {
@@ -73,41 +109,6 @@ void LensLesson::advance(std::uint64_t count) {
 
 double LensLesson::passing() const {
   return done_ > 0 ? static_cast<double>(passed_) / static_cast<double>(done_) : 0;
-}
-
-Plot LensLesson::blur_plot() const {
-  Plot plot;
-  plot.title = "Spot of a point on the axis, mm";
-  plot.x = {"distance, m", true};
-  plot.y = {"", true};
-  PlotSeries through{"this lens", {}}, thin{"a thin lens", {}};
-  constexpr int kSteps = 96;
-  const double nearest = 2e-3 * lens_->focal_length(), farthest = 1000;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double metres = nearest * std::pow(farthest / nearest, static_cast<double>(i) / kSteps);
-    const auto distance = static_cast<float>(1000 * metres);
-    through.points.push_back({metres, static_cast<double>(lens_blur(*lens_, distance))});
-    thin.points.push_back({metres, static_cast<double>(thin_lens_blur(*lens_, distance))});
-  }
-  plot.series = {std::move(through), std::move(thin)};
-  return plot;
-}
-
-Plot LensLesson::vignetting_plot() const {
-  Plot plot;
-  plot.title = "Light over the film's radius";
-  plot.x = {"radius, mm", false, true};
-  plot.y = {"", false, true};
-  plot.series.push_back({"this lens", vignetting_});
-  // As seen from the paraxial exit pupil, without vignetting by openings.
-  PlotSeries cosines{"cos^4", {}, true};
-  const double distance = lens_->exit_pupil().z + static_cast<double>(lens_->film_distance());
-  for (const PlotPoint& p : vignetting_) {
-    const double cos2 = 1 / (1 + std::pow(p.x / distance, 2));
-    cosines.points.push_back({p.x, vignetting_.front().y * cos2 * cos2});
-  }
-  plot.series.push_back(std::move(cosines));
-  return plot;
 }
 
 } // namespace candela

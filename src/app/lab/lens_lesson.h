@@ -40,17 +40,21 @@ public:
   double passing() const;
 
   /// Diameter of the spot of a point on the axis over its distance, and a thin lens's.
-  Plot blur_plot() const;
+  const Plot& blur_plot() const { return plots_->blur; }
   /// Illumination over the film's radius, and cos^4 of the angle.
-  Plot vignetting_plot() const;
+  const Plot& vignetting_plot() const { return plots_->vignetting; }
 
 private:
+  struct Plots {
+    Plot blur, vignetting;
+  };
+
   LensOptions options_;
   SampleSource source_;
   std::uint64_t samples_, done_ = 0, passed_ = 0;
   std::shared_ptr<const LensSystem> lens_;
   RunningStatistics weights_;
-  std::vector<PlotPoint> vignetting_;
+  std::shared_ptr<const Plots> plots_; ///< of the lens: made once, on whichever thread makes the lesson
 };
 
 } // namespace candela

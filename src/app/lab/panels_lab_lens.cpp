@@ -46,17 +46,10 @@ public:
         "samples",
         fmt::format("{} of {}, {:.1f} % pass", lesson->done(), lesson->samples(), 100 * lesson->passing()),
         "Drawn over an ellipse around the exit pupil as this film point sees it");
-    plot_widget(ui, "lab.blur", blur_, 240);
-    plot_widget(ui, "lab.vignetting", vignetting_, 200);
+    plot_widget(ui, "lab.blur", lesson->blur_plot(), 240);
+    plot_widget(ui, "lab.vignetting", lesson->vignetting_plot(), 200);
   }
-  void step(TaskThread& worker) override {
-    job_.step(worker);
-    if (const LensLesson* lesson = job_.shown(); lesson != nullptr && drawn_ != &lesson->lens()) {
-      drawn_ = &lesson->lens();
-      blur_ = lesson->blur_plot();
-      vignetting_ = lesson->vignetting_plot();
-    }
-  }
+  void step(TaskThread& worker) override { job_.step(worker); }
   bool busy() const override { return job_.busy(); }
 
 private:
@@ -106,8 +99,6 @@ private:
   LensOptions options_;
   LabJob<LensLesson> job_;
   std::optional<Inputs> inputs_;
-  const LensSystem* drawn_ = nullptr; ///< of the plots
-  Plot blur_, vignetting_;
 };
 
 } // namespace

@@ -121,9 +121,9 @@ private:
   double marked_until_ = 0;
 };
 
-/// The text of a field's tooltip: key, help, domain, what it restarts, how to edit.
-/// Its key in words, as panels show it.
+/// A field's key in words, as panels show it.
 std::string field_label(const FieldInfo& row);
+/// The text of a field's tooltip: key, help, domain, what it restarts, how to edit.
 std::string field_tooltip(const FieldInfo& row, const void* initial);
 
 } // namespace candela

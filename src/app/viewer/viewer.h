@@ -174,8 +174,9 @@ private:
   void install_scene(Document document, std::string path, std::vector<std::string> warnings,
                      const Bounds3& bounds, FileStamps files);
   void watch_files(FileStamps known = {});
-  void read_panoramas_again(const std::set<std::string>& changed);
-  void read_profiles_again(const std::set<std::string>& changed);
+  template <class Read, class Install>
+  void read_again(const std::string& name, Read read, Install install);
+  void read_dropped_again(const std::set<std::string>& changed);
   void save_shown_picture();
 
   // viewer_compare.cpp

@@ -1,4 +1,5 @@
-// Opening and watching scenes in the background. Saving is in viewer_saving.cpp.
+// Opening scenes in the background. Watching their files is in viewer_watching.cpp, saving in
+// viewer_saving.cpp.
 
 #include "app/panels/texture_picker.h"
 #include "app/ui/item_list.h"
@@ -238,100 +239,6 @@ void Viewer::cancel_building() {
   if (undos.value_or(0) == 0) return;
   show_state(history_.undo_by(*undos));
   notify("Cancelled building: redo starts it again");
-}
-
-/// The scene's files, and those of panoramas dropped on it since. `known`: their stamps when they were just
-/// read or written.
-void Viewer::watch_files(FileStamps known) {
-  std::set<std::string> files = source_files(state_.document.scene);
-  for (const auto& [file, stamp] : scene_->files) files.insert(file);
-  if (!scene_->path.empty()) files.insert(scene_->path); // perhaps a link, whose target may change
-  watch_.watch(std::move(files), std::move(known));
-}
-
-/// Panoramas that the saved scene does not refer to yet are replaced in their lights; edits are kept.
-void Viewer::read_panoramas_again(const std::set<std::string>& changed) {
-  std::set<std::shared_ptr<const Panorama>> old;
-  for (const LightDesc& light : state_.document.scene.lights)
-    if (const auto panorama = light_panorama(light);
-        panorama && std::ranges::any_of(panorama->sources,
-                                        [&](const std::string& source) { return changed.contains(source); }))
-      old.insert(panorama);
-  for (const auto& panorama : old)
-    reader_.post([this, panorama]() -> TaskThread::Completion {
-      try {
-        WarningList corrections; // ignored, as when it was dropped
-        auto fresh = read_panorama(panorama->sources, corrections);
-        return [this, panorama, fresh] {
-          for (LightDesc& light : state_.document.scene.lights)
-            if (light_panorama(light) == panorama) set_panorama(light, fresh), state_.edited = true;
-          notify(fmt::format("{} was read again", panorama->name));
-        };
-      } catch (const std::exception& error) {
-        return [this, problem = std::string(error.what())] { state_.error = problem; };
-      }
-    });
-}
-
-void Viewer::read_profiles_again(const std::set<std::string>& changed) {
-  std::set<std::shared_ptr<const IesProfile>> old;
-  for (const LightDesc& light : state_.document.scene.lights)
-    if (const auto profile = light_profile(light); profile && changed.contains(profile->source))
-      old.insert(profile);
-  for (const auto& profile : old)
-    reader_.post([this, profile]() -> TaskThread::Completion {
-      try {
-        WarningList corrections;
-        auto fresh = read_ies(profile->source, corrections);
-        return [this, profile, fresh] {
-          for (LightDesc& light : state_.document.scene.lights)
-            if (light_profile(light) == profile) set_profile(light, fresh), state_.edited = true;
-          notify(fmt::format("{} was read again", profile->name));
-        };
-      } catch (const std::exception& error) {
-        return [this, problem = std::string(error.what())] { state_.error = problem; };
-      }
-    });
-}
-
-void Viewer::look_for_changes() {
-  if (state_.reading) return;
-  const std::set<std::string> changed = watch_.take_changes();
-  if (changed.empty()) return;
-  auto is_the_scenes = [&](const std::string& file) {
-    return file == scene_->path || scene_->files.contains(file);
-  };
-  if (std::ranges::none_of(changed, is_the_scenes)) {
-    read_panoramas_again(changed);
-    read_profiles_again(changed);
-    // The same for dropped textures.
-    for (const auto& texture : state_.document.scene.textures) {
-      const ImageTexture* image = texture->image();
-      if (image == nullptr || !changed.contains(image->source)) continue;
-      reader_.post([this, texture, source = image->source]() -> TaskThread::Completion {
-        try {
-          WarningList corrections;
-          const auto fresh = std::make_shared<const Texture>(
-              Texture{texture->name, ImageTexture{source, read_texels(source, corrections)}});
-          return [this, texture, fresh] {
-            for (auto& known : state_.document.scene.textures)
-              if (known == texture) known = fresh, state_.edited = true;
-            notify(fmt::format("{} was read again", fresh->name));
-          };
-        } catch (const std::exception& error) {
-          return [this, problem = std::string(error.what())] { state_.error = problem; };
-        }
-      });
-    }
-    return;
-  }
-  if (scene_->path.empty()) return;
-  std::error_code failed;
-  if (!fs::exists(scene_->path, failed)) return; // an editor may be replacing it
-  if (state_.modified)
-    state_.question = Question::reload;
-  else
-    open_scene({scene_->path}, true);
 }
 
 void Viewer::serve_file_requests() {

@@ -62,10 +62,6 @@ std::vector<FoundFile> read_faces(JsonValue array, const std::string& element, c
   return files;
 }
 
-} // namespace
-
-namespace {
-
 /// Reads the files of one light, and of those inline.
 class LightFiles {
 public:

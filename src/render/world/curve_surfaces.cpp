@@ -29,7 +29,7 @@ Bezier bezier_of(CurveBasis basis, std::span<const glm::dvec4> points, std::size
           (p1 + 4.0 * p2 + p3) / 6.0};
 }
 
-/// Whether a strand goes on from `a` to `b` in the same direction, with the same taper.
+/// Whether a strand continues from `a` to `b` in the same direction, with the same taper.
 bool is_smooth(const Bezier& a, const Bezier& b) {
   const glm::dvec4 before = a[3] - a[2], after = b[1] - b[0];
   const double lb = glm::length(glm::dvec3(before)), la = glm::length(glm::dvec3(after));
