@@ -306,11 +306,16 @@ TEST(OpenPbr, NeverGivesMoreThanItGot) {
                     .thin_film_thickness = any(),
                     .thin_film_ior = 1 + 2 * any()};
     for (const float cosine : {1.0f, 0.5f, 0.1f, 0.01f, -0.02f, -0.4f, -0.9f}) {
-      // All that is scattered, by samples; six standard deviations are allowed.
+      // All that is scattered, by samples; six standard deviations are allowed. Weights that are alike but
+      // for rare losses have a spread that few samples do not show: an excess counts if many have it, too.
       const vec3 wo(std::sqrt(1 - sqr(cosine)), 0, cosine);
-      const SampledAlbedo sampled = albedo_by_samples(tested("random", OpenPbr{v}), wo, 1000);
-      for (const RunningStatistics& channel : sampled.channel)
-        EXPECT_LE(channel.mean(), 1 + 1e-4 + 6 * std::sqrt(channel.variance_of_mean())) << i << ' ' << cosine;
+      const auto excess = [&](int samples) {
+        double most = 0;
+        for (const auto& channel : albedo_by_samples(tested("random", OpenPbr{v}), wo, samples).channel)
+          most = std::max(most, channel.mean() - 1 - 1e-4 - 6 * std::sqrt(channel.variance_of_mean()));
+        return most;
+      };
+      if (excess(1000) > 0) { EXPECT_EQ(excess(200000), 0) << i << ' ' << cosine; }
     }
   }
 }
