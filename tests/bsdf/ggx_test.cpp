@@ -72,14 +72,18 @@ TEST(Ggx, AlphaIsTheSquareOfRoughness) {
 }
 
 TEST(Ggx, SmoothAndLosslessIsAMirror) {
+  // But for the rare facets of the distribution's long tail: they are tilted by more than 0.05 with a chance
+  // of 1 / (1 + (0.05 / kMinAlpha)^2) = 4e-4, so that more than 10 of 1000 have one of 2e-12.
+  SCOPED_TRACE(seed_note());
   for (vec3 wo : outgoing_directions()) {
     if (std::abs(wo.z) < 0.1f) continue;
     Random random(2);
+    int others = 0;
     for (int i = 0; i < 1000; ++i) {
-      std::optional<BsdfSample> s = Ggx{vec3(1), 0}.sample(wo, random.three());
-      ASSERT_TRUE(s);
-      EXPECT_NEAR(s->weight.x, 1, 1e-2);
+      const std::optional<BsdfSample> s = Ggx{vec3(1), 0}.sample(wo, random.three());
+      others += !(s && std::abs(s->weight.x - 1) < 1e-2f);
     }
+    EXPECT_LE(others, 10) << wo.z;
   }
 }
 

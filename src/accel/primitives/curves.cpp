@@ -174,18 +174,21 @@ private:
     add(q.p.z, q.u);
   }
 
-  void add_tube_hit(const Point& a, const Point& b) {
+  void add_tube_hit(Point a, Point b) {
     const Point near = nearest_point(a, b);
-    if (!(near.discriminant() >= 0 || a.discriminant() >= 0 || b.discriminant() >= 0)) return;
+    const double da = a.discriminant(), db = b.discriminant();
+    if (!(near.discriminant() >= 0 || da >= 0 || db >= 0)) return;
+    // A piece that is only almost straight may pass the ray by at two places: s begins where D is 0 between a
+    // miss and a hit.
+    if (da < 0 && db > 0 && nearing(a) >= 0)
+      a = at(root_between([this](double u) { return at(u).discriminant(); }, a.u, da, b.u, db));
+    if (da > 0 && db < 0 && nearing(b) <= 0)
+      b = at(root_between([this](double u) { return -at(u).discriminant(); }, a.u, -da, b.u, -db));
     const double fa = entering(a), fb = entering(b);
-    if (fa >= 0) {
-      if (fa == 0 || is_closed_at(a)) add_entry(a);
-      return;
-    }
-    if (fb <= 0) {
-      if (fb == 0 || is_closed_at(b)) add_entry(b);
-      return;
-    }
+    // It may rise before it falls towards an end: each end is asked for.
+    if (fa == 0 || (fa > 0 && is_closed_at(a))) add_entry(a);
+    if (fb == 0 || (fb < 0 && is_closed_at(b))) add_entry(b);
+    if (fa >= 0 || fb <= 0) return;
     double lo = a.u, f_lo = fa, hi = b.u, f_hi = fb;
     if (near.u > lo && near.u < hi) {
       const double f = entering(near);
