@@ -69,6 +69,11 @@ std::string mesh_problem(const Mesh& mesh) {
     if (std::max({t.x, t.y, t.z}) >= mesh.positions.size()) return "a vertex index is out of range";
   for (std::uint32_t slot : mesh.material_slots)
     if (slot >= mesh.slot_names.size()) return "a material slot is out of range";
+  auto fits = [](const std::vector<vec3>& colors, std::size_t count) {
+    return colors.empty() || colors.size() == count;
+  };
+  if (!fits(mesh.vertex_colors, mesh.positions.size())) return "not every vertex has a colour";
+  if (!fits(mesh.face_colors, mesh.triangles.size())) return "not every face has a colour";
   return {};
 }
 

@@ -20,8 +20,10 @@ struct Mesh {
   std::vector<vec3> positions;
   std::vector<vec3>
       normals; ///< unit, per vertex; empty: flat. A zero normal means: flat at this vertex's triangles.
-  std::vector<vec2> uvs; ///< per vertex; empty: none
+  std::vector<vec2> uvs;           ///< per vertex; empty: none
+  std::vector<vec3> vertex_colors; ///< linear Rec. 709, at least 0, per vertex; empty: none
   std::vector<uvec3> triangles;
+  std::vector<vec3> face_colors;                ///< likewise, per triangle; empty: none
   std::vector<std::uint32_t> material_slots;    ///< per triangle, indexes slot_names; empty: all 0
   std::vector<std::string> slot_names = {""};   ///< what the file calls its materials
   bool operator==(const Mesh&) const = default; ///< by value; compare pointers first where that is enough

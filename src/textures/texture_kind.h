@@ -7,11 +7,12 @@
 //   number(use, uv)  the same for a parameter that is one number
 //   filtered(use, at), filtered(use, at, pyramid)  the mean over a footprint: red, green, blue, alpha; of a
 //                    kind with texels, from its pyramid. Kinds without it are looked up at points.
+//   texel(place)     instead of looking at coordinates: red, green, blue, alpha of a surface's own values
 //   cells()          how many texels, or the like, lie along one unit of u and of v
 //   memory_bytes()   of its data
 
+#include "textures/texture_point.h"
 #include "textures/texture_use.h"
-#include "textures/uv_footprint.h"
 
 #include <concepts>
 #include <string_view>

@@ -8,6 +8,7 @@ constexpr std::string_view kChannels[] = {"rgb", "red", "green", "blue", "alpha"
 constexpr std::string_view kFilters[] = {"nearest", "bilinear", "trilinear"};
 constexpr std::string_view kWraps[] = {"repeat", "clamp", "mirror"};
 constexpr std::string_view kSpaces[] = {"srgb", "linear"};
+constexpr std::string_view kMappings[] = {"uv", "triplanar"};
 constexpr auto kImage = Invalidates::image;
 
 const Field<TextureUse> kFields[] = {
@@ -26,6 +27,15 @@ const Field<TextureUse> kFields[] = {
     {{"color_space", FieldType::choice, 0, 0, "",
       "What the picture's integers mean: colours as on a screen, or the values themselves", kImage, kSpaces},
      [](TextureUse& u) -> void* { return &u.color_space; }},
+    {{"mapping", FieldType::choice, 0, 0, "",
+      "The coordinates: the surface's own, or its position projected along the three axes of the object, "
+      "which "
+      "needs none; scale is in copies per unit of length then",
+      kImage, kMappings},
+     [](TextureUse& u) -> void* { return &u.mapping; }},
+    {{"blend", FieldType::real, 0, 1, "",
+      "Of triplanar mapping: how wide the projections pass into each other; 0 is a seam"},
+     [](TextureUse& u) -> void* { return &u.blend; }},
     {{"uv_rotation", FieldType::angle, -360, 360, "degrees",
       "Turns the texture coordinates counter-clockwise, once they are scaled"},
      [](TextureUse& u) -> void* { return &u.uv.rotation; }},

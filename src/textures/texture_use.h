@@ -14,6 +14,9 @@ enum class TextureChannel : int { rgb, red, green, blue, alpha };
 enum class TextureFilter : int { nearest, bilinear, trilinear };
 /// What lies outside of [0, 1]^2: the texture again, its border, or its mirror images.
 enum class TextureWrap : int { repeat, clamp, mirror };
+/// What coordinates a texture is looked up by: those of the surface, or the position in the object's space,
+/// projected along its three axes (textures/triplanar.h).
+enum class TextureMapping : int { uv, triplanar };
 /// What the integers of a picture mean; floats, alpha and procedural textures are linear in any case.
 enum class ColorSpace : int { srgb, linear };
 
@@ -41,6 +44,8 @@ struct TextureUse {
   TextureFilter filter = TextureFilter::bilinear;
   TextureWrap wrap = TextureWrap::repeat;
   ColorSpace color_space = ColorSpace::srgb;
+  TextureMapping mapping = TextureMapping::uv;
+  float blend = 0.3f; ///< of the three projections, in [0, 1]
   UvTransform uv;
   bool operator==(const TextureUse&) const = default;
 };

@@ -128,17 +128,17 @@ TEST(CheckerTexture, HasSquaresOfTwoColours) {
   Texture checker{"", CheckerTexture{{1, 0, 0}, {0, 0, 4}, 2}};
   TextureUse how;
   const vec3 even(1, 0, 0), odd(0, 0, 4);
-  EXPECT_EQ(texture_color(checker, how, {0.1f, 0.1f}), even);
-  EXPECT_EQ(texture_color(checker, how, {0.6f, 0.1f}), odd);
-  EXPECT_EQ(texture_color(checker, how, {0.6f, 0.6f}), even);
-  EXPECT_EQ(texture_color(checker, how, {-0.1f, 0.1f}), odd);
-  EXPECT_EQ(texture_color(checker, how, {-7.6f, -0.1f}), odd);
-  EXPECT_EQ(texture_number(checker, how, {0.6f, 0.1f}), luminance(odd));
+  EXPECT_EQ(texture_color(checker, how, vec2(0.1f, 0.1f)), even);
+  EXPECT_EQ(texture_color(checker, how, vec2(0.6f, 0.1f)), odd);
+  EXPECT_EQ(texture_color(checker, how, vec2(0.6f, 0.6f)), even);
+  EXPECT_EQ(texture_color(checker, how, vec2(-0.1f, 0.1f)), odd);
+  EXPECT_EQ(texture_color(checker, how, vec2(-7.6f, -0.1f)), odd);
+  EXPECT_EQ(texture_number(checker, how, vec2(0.6f, 0.1f)), luminance(odd));
   how.channel = TextureChannel::blue;
-  EXPECT_EQ(texture_number(checker, how, {0.6f, 0.1f}), 4);
-  EXPECT_EQ(texture_color(checker, how, {0.6f, 0.1f}), vec3(4));
+  EXPECT_EQ(texture_number(checker, how, vec2(0.6f, 0.1f)), 4);
+  EXPECT_EQ(texture_color(checker, how, vec2(0.6f, 0.1f)), vec3(4));
   how.uv.scale = vec2(2);
-  EXPECT_EQ(texture_number(checker, how, {0.3f, 0.1f}), 4);
+  EXPECT_EQ(texture_number(checker, how, vec2(0.3f, 0.1f)), 4);
 }
 
 TEST(Texture, KindsAreKnownByName) {

@@ -79,7 +79,7 @@ TEST(MipPyramid, SmallFootprintsAreBilinearAndEndlessOnesTheMean) {
     auto at = [&](vec2 major, vec2 minor) {
       return vec3(*texture_filtered(texture, use, {{0.3f, 0.7f}, {major, minor}}, &pyramid));
     };
-    const vec3 point = texture_color(texture, bilinear, {0.3f, 0.7f});
+    const vec3 point = texture_color(texture, bilinear, vec2(0.3f, 0.7f));
     EXPECT_EQ(at({0.05f, 0}, {0, 0.1f}), point);
     for (float big : {50.0f, 1e12f, INFINITY, NAN}) {
       const vec3 found = at({big, 0}, {0, big});

@@ -32,7 +32,7 @@ void draw_thumbnail(const Texture& texture, ImVec2 lo, ImVec2 hi) {
       const vec2 cell(x, y), uv = (cell + 0.5f) / static_cast<float>(kCells);
       const ImVec2 from(lo.x + cell.x * w, lo.y + cell.y * h);
       list.AddRectFilled(from, ImVec2(from.x + w, from.y + h),
-                         shown(texture_color(texture, use, {uv.x, 1 - uv.y})));
+                         shown(texture_color(texture, use, vec2(uv.x, 1 - uv.y))));
     }
 }
 

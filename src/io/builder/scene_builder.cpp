@@ -156,13 +156,31 @@ int SceneBuilder::default_material() {
   return default_material_;
 }
 
+int SceneBuilder::vertex_color_material() {
+  if (vertex_color_material_ < 0) {
+    Material colored;
+    colored.name = unused_material_name("vertex colors");
+    DiffuseMaterial matte;
+    matte.diffuse.value = vec3(1);
+    const std::string name(MeshAttributeTexture::kName);
+    matte.diffuse.use.texture =
+        append_texture(std::make_shared<const Texture>(Texture{name, MeshAttributeTexture()}));
+    colored.model = matte;
+    vertex_color_material_ = add_material(std::move(colored));
+  }
+  return vertex_color_material_;
+}
+
 int SceneBuilder::missing_material(const MeshFile& file, std::size_t slot, const Location& where) {
   const std::string& name = file.mesh->slot_names[slot];
   constexpr std::size_t kLongestName = 100;
-  warnings_.add(where, name.empty() ? "faces without a material: a grey one is used"
-                                    : fmt::format("there is no material '{}': a grey one is used",
-                                                  name.substr(0, kLongestName)));
-  return default_material();
+  const bool has_colors = !file.mesh->vertex_colors.empty();
+  const std::string_view instead =
+      has_colors ? "one with the colours of its vertices is used" : "a grey one is used";
+  warnings_.add(where, name.empty() ? fmt::format("faces without a material: {}", instead)
+                                    : fmt::format("there is no material '{}': {}",
+                                                  name.substr(0, kLongestName), instead));
+  return has_colors ? vertex_color_material() : default_material();
 }
 
 void SceneBuilder::place(Instance& instance, const glm::dmat4& world_from_object, const Location& where) {

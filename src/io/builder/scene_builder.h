@@ -70,10 +70,12 @@ public:
 
   /// The index of a grey material for objects without one, created on first use.
   int default_material();
-  /// The same for a slot whose material is missing, with a warning.
+  /// Of a slot whose material is missing, with a warning: the same, or one with the colours of the vertices
+  /// of a mesh that has any.
   int missing_material(const MeshFile& file, std::size_t slot, const Location& where);
 
 private:
+  int vertex_color_material();
   std::shared_ptr<const Texels> texels_of(const std::string& path);
   std::string unused_material_name(const std::string& wish) const;
 
@@ -89,7 +91,7 @@ private:
   std::unordered_set<std::string> material_names_;
   std::unordered_set<std::string> expected_;        ///< as named in the scene
   std::unordered_set<std::string> broken_textures_; ///< canonical paths
-  int default_material_ = -1;
+  int default_material_ = -1, vertex_color_material_ = -1;
 };
 
 /// Converts a material of OBJ, XML … files and adds it. Returns its index.

@@ -39,7 +39,8 @@
 //
 // Files are named relative to the scene's folder. A number or colour of a material may be a texture, which
 // gives factor * texel + offset: {"texture": …, "factor": 1, "offset": 0, "channel", "filter", "wrap",
-// "color_space", "uv_scale": [1, 1], "uv_rotation": 0, "uv_offset": [0, 0]}. The texture is a picture file,
+// "color_space", "mapping": "uv" or "triplanar", "blend", "uv_scale": [1, 1], "uv_rotation": 0,
+// "uv_offset": [0, 0]}. The texture is a picture file,
 // or the name or index of an entry of "textures": a list of {"file", "name"}, pictures inline ({"name",
 // "width", "height", "channels": 1, 3 or 4, and "srgb": [bytes], "uint16": […] or "float": […]}), or other
 // kinds by their "type" ({"type": "checker", "name", "even", "odd", "squares"}). A picture keeps the
@@ -48,9 +49,9 @@
 // factor.
 //
 // A mesh is a file, or inline: "positions", "triangles" (indices from 0), and perhaps "normals" (unit, or
-// zero: flat), "uvs" (both per vertex), "material_slots" (per triangle, into "slots"), "slots" (names, one
-// of "" if left out), "source" (the file it once came from, never opened). "name" is the mesh's name if it is
-// not its key.
+// zero: flat), "uvs", "vertex_colors" (all per vertex), "face_colors" (per triangle; colours are linear),
+// "material_slots" (per triangle, into "slots"), "slots" (names, one of "" if left out), "source" (the file
+// it once came from, never opened). "name" is the mesh's name if it is not its key.
 //
 // "shape" is one of shape_names() in scene/scene_desc.h, with the values of shape_fields(): sphere (with
 // "radius", about the origin), rectangle ([-1, 1]^2 in the xy plane), disc (of radius 1 there), plane (all of

@@ -29,6 +29,16 @@ std::vector<Vec> read_vectors(JsonValue value, std::string_view element, const W
   return out;
 }
 
+std::vector<vec3> read_colors(JsonValue value, std::string_view element, const WarningList& warnings) {
+  auto colors = read_vectors<vec3, 3>(value, element, warnings);
+  const auto negative =
+      std::ranges::find_if(colors, [](vec3 c) { return !(glm::min(c.x, glm::min(c.y, c.z)) >= 0); });
+  if (negative != colors.end())
+    throw input_error(value.where(), element, fmt::format("colour {} is negative", negative - colors.begin()),
+                      "give linear values of 0 or more");
+  return colors;
+}
+
 std::vector<uvec3> read_triangles(JsonValue value, std::size_t vertices, std::string_view element,
                                   const WarningList& warnings) {
   expect(value, JsonType::array, element);
@@ -69,12 +79,13 @@ void make_unit(std::vector<vec3>& normals, const WarningList& warnings) {
 
 Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view element,
                     const WarningList& warnings) {
-  constexpr std::string_view kKeys[] = {"name", "positions",      "triangles", "normals",
-                                        "uvs",  "material_slots", "slots",     "source"};
+  constexpr std::string_view kKeys[] = {"name",          "positions",      "triangles", "normals",
+                                        "uvs",           "material_slots", "slots",     "source",
+                                        "vertex_colors", "face_colors"};
   Mesh mesh;
   mesh.name = name;
   // Counts are checked after all members have been found.
-  std::optional<JsonValue> triangles, normals, uvs, slots;
+  std::optional<JsonValue> triangles, normals, uvs, slots, vertex_colors, face_colors;
   for (auto [key, value] : object.members()) {
     std::string where = fmt::format("{}.{}", element, key.string());
     if (key.string() == "positions") {
@@ -88,6 +99,12 @@ Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view 
     } else if (key.string() == "uvs") {
       uvs = value;
       mesh.uvs = read_vectors<vec2, 2>(value, where, warnings);
+    } else if (key.string() == "vertex_colors") {
+      vertex_colors = value;
+      mesh.vertex_colors = read_colors(value, where, warnings);
+    } else if (key.string() == "face_colors") {
+      face_colors = value;
+      mesh.face_colors = read_colors(value, where, warnings);
     } else if (key.string() == "material_slots") {
       slots = value;
     } else if (key.string() == "slots") {
@@ -111,6 +128,10 @@ Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view 
     check_count(*normals, mesh.positions.size(), fmt::format("{}.normals", element), "positions");
   if (uvs && !mesh.uvs.empty())
     check_count(*uvs, mesh.positions.size(), fmt::format("{}.uvs", element), "positions");
+  if (vertex_colors && !mesh.vertex_colors.empty())
+    check_count(*vertex_colors, mesh.positions.size(), fmt::format("{}.vertex_colors", element), "positions");
+  if (face_colors && !mesh.face_colors.empty())
+    check_count(*face_colors, mesh.triangles.size(), fmt::format("{}.face_colors", element), "triangles");
   if (slots) {
     std::string where = fmt::format("{}.material_slots", element);
     expect(*slots, JsonType::array, where);
@@ -158,6 +179,8 @@ std::string json_mesh_members(const Mesh& mesh, std::string_view indent) {
   if (!mesh.uvs.empty())
     add(array_member("uvs", mesh.uvs, indent,
                      [](const vec2& v) { return fmt::format("[{}, {}]", v.x, v.y); }));
+  if (!mesh.vertex_colors.empty()) add(array_member("vertex_colors", mesh.vertex_colors, indent, vec3_text));
+  if (!mesh.face_colors.empty()) add(array_member("face_colors", mesh.face_colors, indent, vec3_text));
   add(array_member("triangles", mesh.triangles, indent,
                    [](const uvec3& t) { return fmt::format("[{}, {}, {}]", t.x, t.y, t.z); }));
   if (!mesh.material_slots.empty())

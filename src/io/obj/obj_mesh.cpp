@@ -173,10 +173,14 @@ private:
     mesh_.positions.reserve(corners.size());
     if (has_normals_) mesh_.normals.reserve(corners.size());
     if (has_uvs_) mesh_.uvs.reserve(corners.size());
+    const bool has_colors = c_.colors.size() > 0;
+    if (has_colors) mesh_.vertex_colors.reserve(corners.size());
     for (std::size_t i = 0; i < corners.size(); ++i) {
       progress_.reach(share_ + part * static_cast<double>(i) / static_cast<double>(corners.size()));
       const ObjCorner& c = corners[i];
       mesh_.positions.push_back(position(c.v));
+      const auto vertex = static_cast<std::size_t>(c.v);
+      if (has_colors) mesh_.vertex_colors.push_back(vertex < c_.colors.size() ? c_.colors[vertex] : vec3(1));
       if (has_normals_) {
         vec3 n = c.vn >= 0 ? c_.normals[static_cast<std::size_t>(c.vn)] : vec3(0);
         double length = glm::length(dvec3(n)); // the square of a float could overflow

@@ -1,5 +1,6 @@
 #include "io/obj/obj_parser.h"
 
+#include "core/color.h"
 #include "io/files/text_file.h"
 #include "io/obj/obj_line.h"
 
@@ -106,14 +107,32 @@ void ObjParser::vertex(std::string_view words) {
   double v[3];
   if (reals("v", words, 3, v)) {
     contents.positions.push_back({v[0], v[1], v[2]});
-    int count = 0;
-    while (count < 6 && !next_word(words).empty()) ++count;
-    if (count == 6) warnings_.add({file_, number_, 1}, "vertex colours are ignored");
+    for (int i = 0; i < 3; ++i) next_word(words);
+    color(words);
   } else {
     warnings_.add({file_, number_, 1},
                   "vertices that are no numbers are dropped, with the faces that use them");
     contents.positions.push_back(glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
   }
+}
+
+/// Of the last position. Programs that write colours there (MeshLab, ZBrush, Blender) write them as screens
+/// show them. A fourth number alone is the weight of a rational curve's point.
+void ObjParser::color(std::string_view words) {
+  vec3 linear;
+  for (int c = 0; c < 3; ++c) {
+    const std::string_view word = next_word(words);
+    if (word.empty()) return;
+    double value = 1;
+    bool comma = false;
+    if (parse_real_or_decimal_comma(word, value, comma) != RealWord::good)
+      warnings_.add(at(word), "vertex colours that are no numbers: white there");
+    else if (!(value >= 0 && value <= 1))
+      warnings_.add(at(word), "vertex colours outside of [0, 1] are clamped");
+    linear[c] = linear_from_srgb(static_cast<float>(std::clamp(value, 0.0, 1.0)));
+  }
+  while (contents.colors.size() + 1 < contents.positions.size()) contents.colors.push_back(vec3(1));
+  contents.colors.push_back(linear);
 }
 
 void ObjParser::face(std::string_view key, std::string_view words) {

@@ -31,8 +31,9 @@ struct ObjFace {
 
 struct ObjContents {
   BlockVector<glm::dvec3> positions; ///< NaN if invalid in the file
-  BlockVector<vec3> normals;         ///< zero there
-  BlockVector<vec2> uvs;             ///< zero there
+  BlockVector<vec3> colors;  ///< of the positions, linear; empty, or shorter: white where there is none
+  BlockVector<vec3> normals; ///< zero there
+  BlockVector<vec2> uvs;     ///< zero there
   BlockVector<ObjCorner> corners;
   BlockVector<ObjFace> faces;
   std::vector<std::string> slot_names;     ///< in UTF-8
@@ -58,6 +59,7 @@ private:
   template <std::size_t N>
   bool reals(std::string_view key, std::string_view words, std::size_t at_least, double (&out)[N]);
   void vertex(std::string_view words);
+  void color(std::string_view words);
   void face(std::string_view key, std::string_view words);
   std::optional<Error> corner(std::string_view word, ObjCorner& out) const;
   std::optional<Error> index(Kind kind, std::string_view digits, std::string_view word, int& out) const;

@@ -1,5 +1,6 @@
 #include "io/obj/obj_writer.h"
 
+#include "core/color.h"
 #include "io/files/atomic_file.h"
 
 #include <fmt/format.h>
@@ -37,7 +38,16 @@ void write_obj(const Mesh& mesh, const std::string& library, const std::string& 
   PendingFile file(path);
   TextPieces text(file);
   if (!library.empty()) text.add("mtllib {}\n", library);
-  for (const vec3& p : mesh.positions) text.add("v {:.7g} {:.7g} {:.7g}\n", p.x, p.y, p.z);
+  auto srgb = [](float x) { return srgb_from_linear(std::clamp(x, 0.0f, 1.0f)); };
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const vec3 p = mesh.positions[i];
+    text.add("v {:.7g} {:.7g} {:.7g}", p.x, p.y, p.z);
+    if (!mesh.vertex_colors.empty()) {
+      const vec3 c = mesh.vertex_colors[i];
+      text.add(" {:.7g} {:.7g} {:.7g}", srgb(c.x), srgb(c.y), srgb(c.z));
+    }
+    text.add("\n");
+  }
   for (const vec2& uv : mesh.uvs) text.add("vt {:.7g} {:.7g}\n", uv.x, uv.y);
   for (const vec3& n : mesh.normals) text.add("vn {:.7g} {:.7g} {:.7g}\n", n.x, n.y, n.z);
   const bool uvs = !mesh.uvs.empty(), normals = !mesh.normals.empty();

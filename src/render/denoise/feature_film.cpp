@@ -53,7 +53,7 @@ public:
       vec3 wo = -ray.direction;
       const bool outside = glm::dot(surface.geometric_normal, wo) > 0;
       const SurfaceMaterial& material = facing(scene_.material(surface.material), outside);
-      auto texture_at = [&] { return texture_point(scene_.geometry(), ray, hit, cone); };
+      auto texture_at = [&] { return texture_point(scene_, ray, hit, cone, material.asks_place); };
       BlendArena blends;
       Bsdf bsdf =
           material.textured != nullptr ? evaluate_bsdf(material, texture_at(), blends) : material.bsdf;

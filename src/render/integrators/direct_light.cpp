@@ -40,7 +40,7 @@ void DirectLight::look_up_radiance(const RenderScene& scene) {
     const auto light = static_cast<std::uint32_t>(query.light - scene.lights().data());
     const EmitterTexture* texture = scene.emitter_texture(light);
     if (texture != nullptr && lights_.pdf[query.lane] > 0)
-      lights_.radiance.set(query.lane, texture->radiance(scene.geometry(), lights_.point[query.lane]));
+      lights_.radiance.set(query.lane, texture->radiance(scene, lights_.point[query.lane]));
   }
 }
 

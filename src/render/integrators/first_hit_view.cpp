@@ -41,9 +41,10 @@ Spectrum first_hit_value(const RenderScene& scene, Ray ray, const MediumStack& m
     const bool outside = glm::dot(surface.geometric_normal, ray.direction) < 0;
     const SurfaceMaterial& material = facing(scene.material(surface.material), outside);
     BlendArena blends;
-    Bsdf bsdf = material.textured
-                    ? evaluate_bsdf(material, texture_point(scene.geometry(), ray, hit, cone), blends)
-                    : material.bsdf;
+    Bsdf bsdf =
+        material.textured
+            ? evaluate_bsdf(material, texture_point(scene, ray, hit, cone, material.asks_place), blends)
+            : material.bsdf;
     set_outside(scene, material, passage.media, outside, bsdf);
     return bsdf_albedo(bsdf);
   }

@@ -139,8 +139,9 @@ void PathTracer::add_emission(int depth) {
     const SurfaceInteraction surface = scene_.geometry().surface(path.ray, hits_[i]);
     const bool outside = glm::dot(-path.ray.direction, surface.geometric_normal) > 0;
     if (!outside && !material.two_sided_emission) continue;
-    const Spectrum emission = emission_at(
-        material, [&] { return texture_point(scene_.geometry(), path.ray, hits_[i], cone_of_view(path)); });
+    const Spectrum emission = emission_at(material, [&] {
+      return texture_point(scene_, path.ray, hits_[i], cone_of_view(path), material.asks_place);
+    });
     add_emitted(path, surface, emission, depth);
   }
 }

@@ -41,7 +41,7 @@ bool detail::intersect_through_media(const RenderScene& scene, Ray& ray, const S
     advance(hit.t);
     if (passage == nullptr || !is_hidden(scene, material, passage->media, ray, hit)) {
       const float opacity =
-          opacity_at(material, [&] { return texture_point(scene.geometry(), ray, hit, cone); });
+          opacity_at(material, [&] { return texture_point(scene, ray, hit, cone, material.asks_place); });
       if (opacity >= 1 || sampler.get_1d(Dimension::opacity, crossing) < opacity) return true;
     }
     if (crossing + 1 == kMaxCrossings) return false;
@@ -79,7 +79,9 @@ Spectrum transmittance(const RenderScene& scene, const Ray& towards, const Shado
     if (!hit) return through * passes(where, ray, whole_way);
     const SurfaceMaterial& material = scene.material(scene.geometry().material_of(*hit));
     if (media == nullptr || !is_hidden(scene, material, where, ray, *hit)) {
-      through *= 1 - opacity_at(material, [&] { return scene.geometry().uv(ray, *hit); });
+      through *= 1 - opacity_at(material, [&] {
+                   return texture_point(scene, ray, *hit, nullptr, material.asks_place);
+                 });
       if (is_black(through)) return Spectrum(0);
     }
     SurfaceInteraction s = scene.geometry().surface(ray, *hit);

@@ -99,11 +99,12 @@ void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays
     geometric_normal.set(i, s.geometric_normal);
     const ConeOfRay* relief_cone = cones.empty() ? nullptr : cones[i];
     normal.set(i, material[i]->has_relief()
-                      ? relief_normal(*material[i], geometry, *rays[i], hits[i], s, relief_cone)
+                      ? relief_normal(*material[i], scene, *rays[i], hits[i], s, relief_cone)
                       : s.shading_normal);
     if (material[i]->textured == nullptr) continue;
     const ConeOfRay* cone = !cones.empty() && material[i]->textured->is_filtered ? cones[i] : nullptr;
-    varying[i] = evaluate_bsdf(*material[i], texture_point(geometry, *rays[i], hits[i], cone), blends);
+    varying[i] = evaluate_bsdf(
+        *material[i], texture_point(scene, *rays[i], hits[i], cone, material[i]->asks_place), blends);
   }
   set_frames(wo, *this);
   if (any_oriented) orient(*this, geometry, rays, hits);

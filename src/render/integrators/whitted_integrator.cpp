@@ -63,7 +63,7 @@ private:
       const Vertex vertex(scene_, path.ray, hit);
       const SurfaceMaterial& material = *vertex.material;
       bool outside = vertex.side > 0;
-      auto texture_at = [&] { return texture_point(scene_.geometry(), path.ray, hit, cone); };
+      auto texture_at = [&] { return texture_point(scene_, path.ray, hit, cone, material.asks_place); };
       if (material.emissive && (outside || material.two_sided_emission) && shows_depth(settings_, depth))
         sample_.add(path.throughput * emission_at(material, texture_at), depth);
       if (depth == last_depth_ || !vertex.scatters()) return;

@@ -23,6 +23,12 @@ inline constexpr int kMostCells = 256, kMostLookups = 1024;
 EmissionTable tabulate_emission(const SurfaceMaterial& material, bool mirrored,
                                 const Progress* progress = nullptr);
 
+/// Whether the coordinates alone do not tell what it sends out: light sampling guesses then.
+inline bool places_radiance(const SurfaceMaterial& material) {
+  auto asks = [](const TexturedParameter* lookup) { return lookup != nullptr && lookup->asks_place(); };
+  return asks(material.emission_texture) || asks(material.opacity_texture);
+}
+
 /// What light sampling expects of an emitter, W/(m^2 sr): the mean over its own part of the textures.
 /// `uv_at` maps the unit square to its texture coordinates, equal areas to equal areas.
 vec3 mean_radiance(const SurfaceMaterial& material, const std::function<vec2(vec2)>& uv_at);
@@ -55,6 +61,7 @@ public:
   }
   LightRadiance over_rectangle(bool mirrored) const {
     if (!textured()) return even();
+    if (places_radiance(material_)) return over([](vec2 uv) { return uv; });
     const EmissionTable& table = table_(material_, mirrored);
     return {table.mean, material_.two_sided_emission, table.grid.get()};
   }

@@ -111,6 +111,7 @@ TexturedModel SurfaceMaterials::textured_model(const Material& material, const S
     if (parameter.use().texture < 0 || is_common(numbered, parameter)) return;
     const TexturedParameter lookup = textured_parameter(row, parameter, from);
     out.is_filtered |= lookup.is_filtered();
+    out.asks_place |= lookup.asks_place();
     parameter.use().texture = static_cast<int>(out.lookups.size());
     out.lookups.push_back(lookup);
   });
@@ -144,6 +145,7 @@ const TexturedModel* SurfaceMaterials::blend_model(const Material& blend, bool o
   for (const TexturedModel* part : model.parts) {
     model.mixed += part != nullptr ? std::max<std::size_t>(part->mixed, 1) : 1;
     model.is_filtered |= part != nullptr && part->is_filtered;
+    model.asks_place |= part != nullptr && part->asks_place;
   }
   return &models_.emplace_back(std::move(model));
 }
@@ -223,6 +225,10 @@ SurfaceMaterial SurfaceMaterials::made(const Material& material, bool outside, c
   set_scattering(out, material, outside, from);
   set_common(out, material, from);
   out.is_textured = out.textured != nullptr || out.has_relief();
+  out.asks_place = out.textured != nullptr && out.textured->asks_place;
+  for (const TexturedParameter* lookup :
+       {out.emission_texture, out.opacity_texture, out.normal_texture, out.bump_texture})
+    out.asks_place |= lookup != nullptr && lookup->asks_place();
   return out;
 }
 

@@ -25,17 +25,18 @@ struct TexturedParameter {
 
   /// Whether it is looked up over a footprint, where there is one.
   bool is_filtered() const { return use.filter == TextureFilter::trilinear; }
+  bool asks_place() const { return candela::asks_place(*texture, use); }
   vec3 color(const TexturePoint& at) const {
     vec3 texel;
     if (const auto mean = mean_over(at))
       texel = texel_color(*mean, use.channel);
     else
-      texel = texture_color(*texture, use, at.uv);
+      texel = texture_color(*texture, use, at);
     return glm::clamp(factor * texel + offset, lowest, highest);
   }
   float number(const TexturePoint& at) const {
     const auto mean = mean_over(at);
-    const float texel = mean ? texel_number(*mean, use.channel) : texture_number(*texture, use, at.uv);
+    const float texel = mean ? texel_number(*mean, use.channel) : texture_number(*texture, use, at);
     return std::clamp(factor.x * texel + offset.x, lowest, highest);
   }
 
@@ -51,6 +52,7 @@ struct TexturedModel {
   MaterialModel model;
   std::vector<TexturedParameter> lookups;
   bool is_filtered = false; ///< any of them, or of the parts: it asks for the footprint
+  bool asks_place = false;  ///< likewise, for the place
 
   // Of a blend:
   std::size_t mixed = 0;                                       ///< how many closures at most; 0: no blend
@@ -63,6 +65,7 @@ struct SurfaceMaterial {
   SurfaceMaterial* back = nullptr;         ///< of the other side of the surface, where that differs: facing()
   bool varies = false;      ///< whether the BSDF depends on the hit: textured, oriented, by what lies outside
   bool is_textured = false; ///< whether hits look at textures for the BSDF or the shading normal
+  bool asks_place = false;  ///< whether a texture of it looks at TexturePoint::place
   bool oriented = false;    ///< whether orient_bsdf() has something to do
   const TexturedParameter* emission_texture = nullptr;                        ///< emission_at() knows it then
   const TexturedParameter* opacity_texture = nullptr;                         ///< opacity_at(), likewise

@@ -1,19 +1,24 @@
 #pragma once
 // Where a hit is in texture coordinates, and how much of them it stands for.
 
-#include "render/world/geometry.h"
 #include "render/world/ray_cone.h"
+#include "render/world/surface_place.h"
 
 namespace candela {
 
-/// Of a hit of a ray of unit direction. A point where `cone` is null.
-inline TexturePoint texture_point(const Geometry& geometry, const Ray& ray, const Hit& hit,
-                                  const ConeOfRay* cone) {
-  const vec2 uv = geometry.uv(ray, hit);
-  if (cone == nullptr) return uv;
+/// Of a hit of a ray of unit direction. A point where `cone` is null, and on surfaces without coordinates
+/// unless the place is asked for, as SurfaceMaterial::asks_place has it.
+inline TexturePoint texture_point(const RenderScene& scene, const Ray& ray, const Hit& hit,
+                                  const ConeOfRay* cone, bool asks_place) {
+  const Geometry& geometry = scene.geometry();
+  TexturePoint at = geometry.uv(ray, hit);
+  if (cone == nullptr && !asks_place) return at;
   const SurfaceTangents tangents = geometry.tangents(ray, hit);
+  if (asks_place) at.place = surface_place(scene, ray, hit, tangents);
+  if (cone == nullptr || !(tangents.has_uv || asks_place)) return at;
   const vec3 normal = glm::normalize(glm::cross(tangents.dpdu, tangents.dpdv));
-  return {uv, uv_footprint(ray.direction, normal, cone->width_at(ray.at(hit.t)), tangents)};
+  at.footprint = uv_footprint(ray.direction, normal, cone->width_at(ray.at(hit.t)), tangents);
+  return at;
 }
 
 } // namespace candela

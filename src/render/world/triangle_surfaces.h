@@ -47,6 +47,10 @@ struct TriangleSurfaces {
     return triangle_instances[static_cast<std::size_t>(next - first_triangle_of.begin()) - 1];
   }
   std::uint64_t number_of(const Hit& hit) const { return hit.primitive; }
+  /// The number of a triangle among those of its instance.
+  std::uint32_t triangle_of_instance(const Hit& hit) const {
+    return hit.primitive - *std::prev(std::ranges::upper_bound(first_triangle_of, hit.primitive));
+  }
 
   void set_surface(const Ray&, const Hit& hit, SurfaceInteraction& s) const {
     const uvec3 t = set.triangles[hit.primitive];

@@ -107,6 +107,14 @@ const JsonError kErrors[] = {
      "s.json:1:33: meshes.m: ", "did you mean 'positions'?"},
     {"MeshBothKinds", "{\"candela\": 1, \"meshes\": {\"m\": {\"file\": \"x.obj\", \"uvs\": []}}}",
      "s.json:1:50: meshes.m: ", "no key 'uvs'"},
+    {"MeshColors",
+     "{\"candela\": 1, \"meshes\": {\"m\": {\"positions\": [[0,0,0]], \"vertex_colors\": [[0,0,1],[0,0,1]], "
+     "\"triangles\": [[0,0,0]]}}}",
+     "s.json:1:74: meshes.m.vertex_colors: ", "2 elements for 1 positions"},
+    {"MeshFaceColors",
+     "{\"candela\": 1, \"meshes\": {\"m\": {\"positions\": [[0,0,0]], \"face_colors\": [[0,-1,1]], "
+     "\"triangles\": [[0,0,0]]}}}",
+     "s.json:1:72: meshes.m.face_colors: ", "colour 0 is negative"},
     {"MeshIndex",
      "{\"candela\": 1, \"meshes\": {\"m\": {\"positions\": [[0,0,0]], \"triangles\": [[0,0,1]]}}}",
      "s.json:1:76: meshes.m.triangles: ", "from 0 to 0"},

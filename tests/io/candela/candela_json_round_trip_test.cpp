@@ -142,12 +142,14 @@ TEST_F(CandelaJsonRoundTrip, RandomDocuments) {
       mesh->positions.emplace_back(normal(random), normal(random), normal(random) * 1e-30f);
       mesh->normals.push_back(i % 3 == 0 ? vec3(0) : glm::normalize(vec3(normal(random), normal(random), 1)));
       mesh->uvs.emplace_back(normal(random), normal(random));
+      mesh->vertex_colors.push_back(glm::abs(vec3(normal(random), normal(random), 1e-30f)));
     }
     std::uniform_int_distribution<std::uint32_t> vertex(0, 49), slot(0, 2);
     mesh->slot_names = {"", "x", "y z"};
     for (int i = 0; i < 20; ++i) {
       mesh->triangles.emplace_back(vertex(random), vertex(random), vertex(random));
       mesh->material_slots.push_back(slot(random));
+      mesh->face_colors.push_back(glm::abs(vec3(normal(random), 0, normal(random))));
     }
     auto twin = std::make_shared<Mesh>(*mesh); // another mesh of the same name
     twin->slot_names = {"s", "s", "t"};

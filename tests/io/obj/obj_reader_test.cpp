@@ -110,9 +110,30 @@ TEST_F(ObjReader, ReadsEverySpelling) {
       "o thing\r\ng a b\r\ns off\r\nusemtl a name\r\n f   1   2   3  # one\r\n");
   EXPECT_EQ(mesh_of(loaded).positions, (std::vector<vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   EXPECT_EQ(mesh_of(loaded).slot_names, std::vector<std::string>{"a name"});
-  EXPECT_EQ(files.warnings(loaded)[0], "1 x x.obj:5:1: vertex colours are ignored");
+  const float half = linear_from_srgb(0.5f);
+  EXPECT_EQ(mesh_of(loaded).vertex_colors, (std::vector<vec3>{vec3(1), vec3(1), vec3(half)}));
   auto mac = read("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3");
   EXPECT_EQ(mesh_of(mac).positions.size(), 3u);
+}
+
+TEST_F(ObjReader, VerticesMayHaveColors) {
+  auto loaded = read("v 0 0 0 1 0 0.25\nv 1 0 0 0 2 0.5\nv 0 1 0 x 1 1\nv 1 1 0\nf 1 2 3\nf 2 4 3\n");
+  const auto& colors = mesh_of(loaded).vertex_colors;
+  const float quarter = linear_from_srgb(0.25f), half = linear_from_srgb(0.5f);
+  EXPECT_EQ(colors, (std::vector<vec3>{{1, 0, quarter}, {0, 1, half}, vec3(1), vec3(1)}))
+      << "as screens show";
+  EXPECT_EQ(files.warnings(loaded),
+            (std::vector<std::string>{
+                "1 x x.obj:2:11: vertex colours outside of [0, 1] are clamped",
+                "1 x x.obj:3:9: vertex colours that are no numbers: white there",
+                "1 x x.obj: faces without a material: one with the colours of its vertices is used",
+                "1 x x.obj: nothing emits light: a constant light is added"}));
+  // They are seen.
+  const SceneDesc& scene = loaded.document.scene;
+  const int material = scene.instances.at(0).materials.at(0);
+  const TextureUse& use = use_of(scene.materials.at(static_cast<std::size_t>(material)), "diffuse");
+  ASSERT_EQ(use.texture, 0);
+  EXPECT_TRUE(std::holds_alternative<MeshAttributeTexture>(scene.textures.at(0)->model));
 }
 
 TEST_F(ObjReader, FloatsAreNearest) {

@@ -34,14 +34,18 @@ void expect_near(const Mesh& got, const Mesh& expected) {
     EXPECT_LE(glm::distance(got.normals[i], expected.normals[i]), 1e-6f) << i;
   for (std::size_t i = 0; i < got.uvs.size(); ++i)
     EXPECT_LE(glm::distance(got.uvs[i], expected.uvs[i]), 1e-6f) << i;
+  ASSERT_EQ(got.vertex_colors.size(), expected.vertex_colors.size());
+  for (std::size_t i = 0; i < got.vertex_colors.size(); ++i)
+    EXPECT_LE(glm::distance(got.vertex_colors[i], expected.vertex_colors[i]), 1e-6f) << i;
 }
 
 TEST(ObjWriter, ReadsBackWithAnyAttributes) {
   test::ScratchFolder scratch;
-  for (int attributes = 0; attributes < 4; ++attributes) {
+  for (int attributes = 0; attributes < 8; ++attributes) {
     Mesh mesh = folded_square();
     if (attributes & 1) mesh.normals = {{0, 0, 1}, {0, 0.6f, 0.8f}, {1, 0, 0}, {0, 0, 1}};
     if (attributes & 2) mesh.uvs = {{0, 0}, {1, 0}, {0.123456f, 1}, {0, 1}};
+    if (attributes & 4) mesh.vertex_colors = {{0, 0, 1}, {1, 0.001f, 0.2f}, {0.5f, 1, 0}, vec3(0.7f)};
     const std::string path = scratch / "mesh.obj";
     write_obj(mesh, "", path);
     expect_near(read_back(path), mesh);

@@ -34,7 +34,7 @@ const RectangleLight& lamp_of(const RenderScene& scene) {
 float luminance_at(const RenderScene& scene, vec2 place) {
   const RectangleLight& light = lamp_of(scene);
   return luminance(scene.emitter_texture(0)->radiance(
-      scene.geometry(), light.at(place.x * light.length_x, place.y * light.length_y)));
+      scene, light.at(place.x * light.length_x, place.y * light.length_y)));
 }
 
 TEST(EmissionTable, FollowsTheMaterialWhereverItsRectangleLies) {
@@ -84,7 +84,7 @@ TEST(EmissionTable, SamplesOfAMostlyBlackPictureShine) {
     for (int y = 0; y < 64; ++y)
       for (int x = 0; x < 64; ++x) {
         const auto s = l.sample(ctx, (vec2(x, y) + 0.5f) / 64.0f);
-        count += s && !is_black(scene->emitter_texture(0)->radiance(scene->geometry(), s->point));
+        count += s && !is_black(scene->emitter_texture(0)->radiance(*scene, s->point));
       }
     return count;
   };

@@ -58,7 +58,7 @@ TEST(EmitterTexture, CoordinatesOfPointsAreThoseOfRays) {
     if (!hit) continue;
     const SurfaceInteraction surface = geometry.surface(ray, *hit);
     const vec2 expected = geometry.uv(ray, *hit);
-    vec2 apart = glm::abs(emitter_uv(geometry, surface.emitter, surface.position) - expected);
+    vec2 apart = glm::abs(emitter_point(*scene, surface.emitter, surface.position, false).uv - expected);
     apart.x = std::min(apart.x, 1 - apart.x); // around a sphere
     ASSERT_LT(std::max(apart.x, apart.y), 2e-3f) << surface.emitter;
     emitters.insert(surface.emitter);

@@ -66,7 +66,7 @@ TEST(FilteredTexture, FootprintIsWhatAPixelOfTheCameraCovers) {
     for (vec2 film : {vec2(32, 24), vec2(2, 46), vec2(60, 40), vec2(10, 20)}) {
       const Ray ray = through(film);
       const ConeOfRay cone{view.pixel_cone(ray.direction), ray.origin};
-      const TexturePoint found = texture_point(g, ray, *g.accel().intersect(ray), &cone);
+      const TexturePoint found = texture_point(*scene, ray, *g.accel().intersect(ray), &cone, false);
       const vec2 across = uv(film + vec2(0.5f, 0)) - uv(film - vec2(0.5f, 0)),
                  down = uv(film + vec2(0, 0.5f)) - uv(film - vec2(0, 0.5f));
       auto area = [](vec2 a, vec2 b) { return std::abs(a.x * b.y - a.y * b.x); };
