@@ -83,7 +83,9 @@ private:
   /// m times the phase, which the width of the CIE curves damps. Orders above 3 are taken for grey.
   Spectrum airy(float r12, Spectrum r23_squared, Spectrum phase23, float cos_film) const {
     const float r12_squared = sqr(r12), passes = 1 - r12_squared;
-    const Spectrum within = passes * passes * r23_squared / (Spectrum(1) - r12_squared * r23_squared);
+    // Where both sides mirror all of it, in grazing directions, nothing gets within: 0 / 0 in floats.
+    const Spectrum escapes = glm::max(Spectrum(1) - r12_squared * r23_squared, Spectrum(1e-8f));
+    const Spectrum within = passes * passes * r23_squared / escapes;
     const Spectrum round_trip = glm::sqrt(r12_squared * r23_squared);
     const Spectrum phase = phase23 + (r12 > 0 ? kPi : 0); // r21 = -r12
     const float path = 2 * ior * thickness * cos_film;

@@ -118,6 +118,18 @@ TEST(ThinFilm, OfTheBasesIndexIsTheBase) {
                   fresnel_dielectric(cosine, 1.5f), 1e-5);
 }
 
+TEST(ThinFilm, GrazingDirectionsAreMirrored) {
+  // Over a base of the outside's index, and of the film's denser and thinner ones, down to no cosine at all.
+  for (const float base : {1.0f, 1.2f, 1.5f, 2.4f})
+    for (const float cosine : {0.0f, 1e-30f, 1e-12f, 1e-9f, 3e-8f, 1e-6f}) {
+      const ThinFilm film{2.45f, 500, 1};
+      for (const Spectrum mirrored :
+           {film.over_dielectric(cosine, base), film.over_conductor(cosine, Spectrum(base), Spectrum(3)),
+            film.over_mirror(cosine, [](float) { return Spectrum(1); })})
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(mirrored[c], 1, 1e-4) << base << ' ' << cosine;
+    }
+}
+
 TEST(F82Tint, ItsTwoColours) {
   const F82Tint metal{{0.9f, 0.6f, 0.3f}, {0.8f, 0.5f, 1.0f}};
   for (int c = 0; c < 3; ++c) {
