@@ -52,9 +52,10 @@ struct ConeOfRay {
 
 /// Of a cone `width` wide about the unit `direction`, on a surface with that unit geometric normal. In scene
 /// units the axes are width / |cos| along the direction's projection and `width` across it; at grazing angles
-/// the major one is cut.
+/// the major one is cut. Nothing where the surface has no coordinates.
 inline UvFootprint uv_footprint(vec3 direction, vec3 normal, float width, const SurfaceTangents& tangents) {
   constexpr float kLeastCosine = 1e-3f;
+  if (!tangents.has_uv) return {};
   const float cosine = glm::dot(direction, normal);
   vec3 along = direction - cosine * normal;
   const float sine = glm::length(along);

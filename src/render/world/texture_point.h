@@ -13,9 +13,10 @@ inline TexturePoint texture_point(const RenderScene& scene, const Ray& ray, cons
   const Geometry& geometry = scene.geometry();
   TexturePoint at = geometry.uv(ray, hit);
   if (cone == nullptr && !asks_place) return at;
-  const SurfaceTangents tangents = geometry.tangents(ray, hit);
+  SurfaceTangents tangents = geometry.tangents(ray, hit);
   if (asks_place) at.place = surface_place(scene, ray, hit, tangents);
-  if (cone == nullptr || !(tangents.has_uv || asks_place)) return at;
+  if (cone == nullptr) return at;
+  tangents.has_uv |= asks_place; // a footprint by tangents of unit length, which the place has, too
   const vec3 normal = glm::normalize(glm::cross(tangents.dpdu, tangents.dpdv));
   at.footprint = uv_footprint(ray.direction, normal, cone->width_at(ray.at(hit.t)), tangents);
   return at;

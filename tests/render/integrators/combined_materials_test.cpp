@@ -191,11 +191,11 @@ TEST(BlendRender, DirectLightIsTheMixtureOfThePartsOwn) {
     return render(s.document);
   };
   constexpr float kShares[] = {0.4f, 0.6f * 0.75f, 0.6f * 0.25f};
-  const Film parts[] = {picture(0, LightSampling::mis, 2, 512), picture(1, LightSampling::mis, 3, 512),
-                        picture(2, LightSampling::mis, 4, 512)};
+  const Film parts[] = {picture(0, LightSampling::mis, 2, 1024), picture(1, LightSampling::mis, 3, 1024),
+                        picture(2, LightSampling::mis, 4, 1024)};
   int salt = 5;
   for (LightSampling how : {LightSampling::bsdf, LightSampling::nee, LightSampling::mis}) {
-    const Film mixed = picture(-1, how, salt++, 512);
+    const Film mixed = picture(-1, how, salt++, 1024);
     RunningStatistics difference[3];
     double mean[3] = {0, 0, 0};
     for (int y = 0; y < mixed.height(); ++y)
