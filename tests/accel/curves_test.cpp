@@ -1,7 +1,6 @@
-// Curves against balls along them in double precision, closed forms, and the tree against all one by one.
+// Curves against balls along them in double precision, and closed forms.
 
-#include "accel/brute_force.h"
-#include "accel/traversal.h"
+#include "accel/curve_samples.h"
 #include "support/seed.h"
 
 namespace candela::test {
@@ -10,15 +9,6 @@ namespace {
 using accel_detail::CurveHit;
 using accel_detail::CurveRay;
 using accel_detail::intersect_curve;
-
-constexpr std::uint32_t kClosed = CurveSegment::closed_start | CurveSegment::closed_end;
-constexpr std::uint32_t kCut = CurveSegment::cut_start | CurveSegment::cut_end;
-
-glm::dvec4 curve_at(const CurveSegment& c, double u) {
-  const double v = 1 - u;
-  return v * v * v * glm::dvec4(c.points[0]) + 3 * u * v * v * glm::dvec4(c.points[1]) +
-         3 * u * u * v * glm::dvec4(c.points[2]) + u * u * u * glm::dvec4(c.points[3]);
-}
 
 /// What a ray that begins outside of the balls along a curve enters first, sampled densely.
 struct DenseHit {
@@ -49,26 +39,6 @@ DenseHit dense_hit(const CurveSegment& c, const Ray& ray) {
   if (hit.t < 1e300) refine(hit.u);
   if (hit.t < 1e300) hit.t /= static_cast<double>(glm::length(ray.direction));
   return hit;
-}
-
-CurveSegment random_curve(Random& random, float bend, float radius, std::uint32_t flags) {
-  CurveSegment c;
-  const vec3 from = random.in_cube(), to = from + random.direction();
-  for (std::size_t k = 0; k < 4; ++k) {
-    const vec3 p =
-        glm::mix(from, to, static_cast<float>(k) / 3) + (k % 3 != 0 ? random.in_cube(bend) : vec3(0));
-    c.points[k] = vec4(p, radius * random.uniform(0.3f, 1));
-  }
-  c.flags = flags;
-  return c;
-}
-
-Ray ray_near(Random& random, const CurveSegment& c, float off) {
-  const vec3 target = vec3(glm::vec4(curve_at(c, static_cast<double>(random.uniform()))));
-  const vec3 direction = random.direction();
-  const vec3 aside = random.in_cube(off);
-  return {target + aside - direction * random.uniform(2, 5), 0, direction * random.uniform(0.5f, 2),
-          kInfinity};
 }
 
 bool begins_outside(const CurveSegment& c, vec3 o) {
@@ -192,31 +162,6 @@ TEST(CurvesStatistical, StraightTubesAreCylinders) {
   EXPECT_GT(hits, 700);
 }
 
-/// Strands as pieces that share their ends.
-std::vector<CurveSegment> wavy_strand(Random& random, std::size_t segments, float radius,
-                                      std::uint32_t form) {
-  std::vector<vec3> knots;
-  vec3 p = random.in_cube(), direction = random.direction();
-  for (std::size_t i = 0; i < segments + 3; ++i) {
-    knots.push_back(p);
-    direction = glm::normalize(direction + random.in_cube(0.8f));
-    p += 0.2f * direction;
-  }
-  std::vector<CurveSegment> out;
-  for (std::size_t i = 0; i < segments; ++i) {
-    const glm::dvec3 a(knots[i]), b(knots[i + 1]), c(knots[i + 2]), d(knots[i + 3]);
-    CurveSegment s;
-    s.points = {vec4(vec3((a + 4.0 * b + c) / 6.0), radius), vec4(vec3((2.0 * b + c) / 3.0), radius),
-                vec4(vec3((b + 2.0 * c) / 3.0), radius), vec4(vec3((b + 4.0 * c + d) / 6.0), radius)};
-    s.flags = form;
-    const bool ribbon = form == CurveSegment::ribbon;
-    if (i == 0) s.flags |= ribbon ? CurveSegment::cut_start : CurveSegment::closed_start;
-    if (i + 1 == segments) s.flags |= ribbon ? CurveSegment::cut_end : CurveSegment::closed_end;
-    out.push_back(s);
-  }
-  return out;
-}
-
 std::optional<float> closest(std::span<const CurveSegment> strand, const Ray& ray) {
   std::optional<float> t;
   const CurveRay seen(ray, ray.t_min, ray.t_max);
@@ -330,87 +275,6 @@ TEST(Curves, RibbonsCoverTheirWidthTimesTheirLength) {
       {vec4(0.8f, 0, 0, 0.1f), vec4(0.8f, k, 0, 0.1f), vec4(k, 0.8f, 0, 0.1f), vec4(0, 0.8f, 0, 0.1f)},
       flags};
   EXPECT_NEAR(coverage(arc, kGrid), 0.2 * 0.8 * std::numbers::pi / 2 / 4, tolerance);
-}
-
-/// All lanes of either implementation, and the tree, give what one curve after the other gives.
-TEST(CurvesStatistical, TreesFindWhatTestsOneByOneFind) {
-  Random random(fresh_seed());
-  SCOPED_TRACE(seed_note());
-  std::vector<CurveSegment> curves;
-  for (int i = 0; i < 60; ++i)
-    for (const CurveSegment& c : wavy_strand(random, 5, random.uniform() < 0.5f ? 0.02f : 0.003f,
-                                             i % 3 == 0 ? CurveSegment::ribbon : CurveSegment::tube))
-      curves.push_back(c);
-  TestScene other; // and other kinds among them
-  for (int i = 0; i < 20; ++i) other.spheres.push_back({random.in_cube(), 0.03f});
-  for (BuildQuality quality : {BuildQuality::fast, BuildQuality::high}) {
-    AccelInput input = other.input();
-    input.curves = curves;
-    const Accel accel = Accel::build(input, quality);
-    EXPECT_EQ(accel.stats().count(PrimitiveKind::curve), curves.size());
-    const Accel spheres = Accel::build(other.input(), quality);
-    std::vector<Ray> rays;
-    for (int i = 0; i < 4000; ++i) {
-      Ray ray{random.in_cube(1.5f), 0, random.direction(), kInfinity};
-      if (i % 2 == 0)
-        ray = ray_near(random, curves[random.below(static_cast<std::uint32_t>(curves.size()))], 0.02f);
-      if (i % 3 == 0) ray.t_min = random.uniform(0, 2), ray.t_max = ray.t_min + random.uniform(0, 3);
-      rays.push_back(ray);
-    }
-    int hits = 0;
-    for (const Ray& ray : rays) {
-      std::optional<float> t;
-      std::uint32_t which = 0;
-      const CurveRay seen(ray, ray.t_min, ray.t_max);
-      for (std::uint32_t k = 0; k < curves.size(); ++k)
-        if (const auto hit = intersect_curve(curves[k], seen); hit && (!t || hit->t < *t))
-          t = hit->t, which = k;
-      const auto ball = spheres.intersect(ray);
-      const bool curve_first = t && (!ball || *t < ball->t);
-      const auto found = accel.intersect(ray);
-      ASSERT_EQ(found.has_value(), t || ball);
-      ASSERT_EQ(accel.occluded(ray), found.has_value());
-      if (!curve_first) continue;
-      ++hits;
-      ASSERT_EQ(found->kind, PrimitiveKind::curve);
-      ASSERT_EQ(found->primitive, which);
-      ASSERT_EQ(found->t, *t);
-      const auto alone = intersect_curve(curves[which], seen);
-      ASSERT_EQ(found->u, alone->u);
-      Hit portable;
-      ASSERT_TRUE(
-          (accel_detail::trace<simd::PortableFloat8, false>(*AccelAccess::tree(accel), ray, portable)));
-      ASSERT_EQ(portable.t, *t);
-      ASSERT_EQ(portable.primitive, which);
-    }
-    EXPECT_GT(hits, 600);
-    std::vector<const Ray*> together;
-    for (const Ray& ray : rays) together.push_back(&ray);
-    std::vector<Hit> batch(rays.size());
-    accel.intersect(together, batch);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const auto found = accel.intersect(rays[i]);
-      ASSERT_EQ(batch[i].t, found ? found->t : kInfinity);
-    }
-  }
-}
-
-TEST(Curves, DegenerateOnesAreLeftOut) {
-  std::vector<CurveSegment> curves(5);
-  curves[0].points = {vec4(0, 0, 0, 0), vec4(1, 0, 0, 0), vec4(2, 0, 0, 0), vec4(3, 0, 0, 0)}; // no width
-  curves[1].points = {vec4(0, 0, 0, 1), vec4(kInfinity, 0, 0, 1), vec4(2, 0, 0, 1), vec4(3, 0, 0, 1)};
-  curves[2].points = {vec4(0, 0, 0, std::nanf("")), vec4(1, 0, 0, 1), vec4(2, 0, 0, 1), vec4(3, 0, 0, 1)};
-  curves[3].points = {vec4(0, 0, 0, 1), vec4(0, 0, 0, 1), vec4(0, 0, 0, 1), vec4(0, 0, 0, 1)}; // a ball
-  curves[3].flags = kClosed;
-  curves[4].points = {vec4(9, 0, 0, 1), vec4(9, 0, 0, 0), vec4(9, 0, 0, 0), vec4(9, 0, 0, 1)};
-  AccelInput input;
-  input.curves = curves;
-  const Accel accel = Accel::build(input);
-  EXPECT_EQ(accel.stats().skipped, 3u);
-  const auto ball = accel.intersect({{0, 0, 5}, 0, {0, 0, -1}, kInfinity});
-  ASSERT_TRUE(ball);
-  EXPECT_NEAR(ball->t, 4, 1e-6f);
-  accel.intersect({{9, 0, 5}, 0, {0, 0, -1}, kInfinity}); // ends
 }
 
 } // namespace
