@@ -101,8 +101,11 @@ PixelRect Viewer::picture_rect() const {
 }
 
 PixelRect Viewer::single_picture_rect() const {
-  const ivec2 film = state_.picture ? ivec2(state_.picture->width, state_.picture->height)
-                                    : glm::max(framebuffer_, ivec2(1));
+  // Until there is a picture, the rectangle is that of the picture to come: gestures begin at once.
+  const FilmSettings& ordered = state_.document.settings.film;
+  const ivec2 film = state_.picture    ? ivec2(state_.picture->width, state_.picture->height)
+                     : state_.fit_film ? glm::max(framebuffer_, ivec2(1))
+                                       : glm::max(ivec2(ordered.width, ordered.height), ivec2(1));
   if (!state_.fit_film)
     return letterbox(free_region(), view_shape(film, state_.document.scene.camera.aspect));
   // The film has the window's size, so that showing and hiding panels does not restart it; its centre is in

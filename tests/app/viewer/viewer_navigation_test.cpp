@@ -1,6 +1,7 @@
 // Orbit, pan, zoom and the views along the axes by mouse and keys; undo, redo, pause and step.
 
 #include "app/harness.h"
+#include "support/build_gate.h"
 
 namespace candela::test {
 namespace {
@@ -41,6 +42,17 @@ TEST(ViewerNavigationUi, TheMiddleButtonOrbitsPansAndZooms) {
   const Camera zoomed = hand.document().scene.camera;
   EXPECT_LT(glm::length(zoomed.position - zoomed.target), 0.8f * 3.6f);
   EXPECT_LT(glm::length(zoomed.target - panned.target), 1e-3f);
+}
+
+TEST(ViewerNavigationUi, GesturesBeforeTheFirstPictureAreThoseAfterIt) {
+  BuildGate gate(true);
+  ViewerHarness hand(test_document(), {.on_build = gate.hook()});
+  ASSERT_FALSE(hand.state().picture) << "the scene is still being built";
+  const PixelRect before = hand.viewer.picture_rect();
+  EXPECT_NEAR(static_cast<float>(before.width) / static_cast<float>(before.height), 64 / 48.0f, 0.01f);
+  gate.open();
+  hand.wait_for_picture();
+  EXPECT_EQ(hand.viewer.picture_rect(), before);
 }
 
 TEST(ViewerNavigationUi, AltStandsInForAMiddleButton) {
