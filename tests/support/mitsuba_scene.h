@@ -1,0 +1,16 @@
+#pragma once
+// Scenes of another renderer's own tests, for comparisons with its pictures.
+
+#include "scene/document.h"
+
+#include <string>
+
+namespace candela::test {
+
+/// Reads a scene of Mitsuba 3's XML, as far as the surfaces and lights of Mitsuba's test scenes need it:
+/// includes, OBJ and binary PLY meshes, spheres, rectangles, instances, and the BSDFs, textures and emitters
+/// that both renderers have. Materials that scatter on one side alone there do so here. Throws
+/// std::runtime_error for anything else, so that nothing is ever left out of a comparison unseen.
+Document read_mitsuba_scene(const std::string& path);
+
+} // namespace candela::test
