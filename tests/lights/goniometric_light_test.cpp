@@ -143,7 +143,8 @@ TEST(GoniometricLight, ItsPowerIsTheIntegralOfItsIntensity) {
   for (ProfileStrength strength : {ProfileStrength::file, ProfileStrength::peak, ProfileStrength::power})
     for (const auto& [name, m] : kinds(strength)) {
       SCOPED_TRACE(name);
-      const double power = integral_over_sphere([&](vec3 d) { return m.light.intensity(d); }, -m.light.up);
+      const double power =
+          integral_over_sphere([&, &m = m](vec3 d) { return m.light.intensity(d); }, -m.light.up);
       // Of pictures the sum over texels; luminances of products are those of the factors here.
       double gray = luminance(m.light.factor) > 0 ? power : 0;
       if (m.light.map !=
@@ -160,7 +161,8 @@ TEST(GoniometricLight, StrengthIsOfTheFileThePeakOrThePower) {
   const vec3 color(0.5f, 2, 1);
   for (const auto& [name, m] : kinds(ProfileStrength::power))
     if (m.light.map == nullptr) {
-      const double power = integral_over_sphere([&](vec3 d) { return m.light.intensity(d); }, -m.light.up);
+      const double power =
+          integral_over_sphere([&, &m = m](vec3 d) { return m.light.intensity(d); }, -m.light.up);
       EXPECT_NEAR(power / static_cast<double>(luminance(color)), 1, 1e-3) << name;
     }
   const Made peak = made(PointLightModel{.strength = ProfileStrength::peak, .profile = profile()}, color);
