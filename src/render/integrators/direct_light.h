@@ -6,6 +6,9 @@
 #include "render/integrators/vertex_lanes.h"
 #include "render/lights/light_lanes.h"
 
+#include <span>
+#include <vector>
+
 namespace candela {
 
 /// Light of one layer (RenderScene::layer_of_light) at the shading point in a lane.

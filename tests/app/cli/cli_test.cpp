@@ -140,7 +140,7 @@ TEST_F(CliTest, WritesLightGroupsAsLayers) {
     "lights": [{"position": [0, 2, 0], "group": "key/1"}, {"position": [1, 2, 0], "group": "key.1"},
                {"type": "constant", "color": 0.2}],
     "light_groups": [{"name": "key/1", "on": false}],
-    "instances": [{"shape": "plane"}], "materials": [{}],
+    "instances": [{"shape": "plane", "material": "m"}], "materials": [{"name": "m"}],
     "camera": {"position": [0, 0, 3]}})";
   const std::string render =
       "render '" + path("groups.json") + "' --size 12x8 --spp 4 --quiet --aov light_groups ";
