@@ -101,7 +101,7 @@ void Accumulation::set_mix(const LightMix& mix, const StopSettings& until) {
 
 const Film& Accumulation::picture(Film& memory) const {
   if (is_plain(state_.options.mix)) return state_.film;
-  state_.layers.mix(state_.film, state_.options.mix, memory);
+  state_.layers.mix(state_.film, state_.options.mix, memory, std::max(coarseness(), 1));
   return memory;
 }
 

@@ -127,7 +127,8 @@ public:
 
   /// At factor 1 of all light layers.
   const Film& film() const { return state_.film; }
-  /// That of the mix: film(), or made in `memory`.
+  /// That of the mix: film(), or made in `memory`; while the first pass is coarse, of the pixels that it has
+  /// visited.
   const Film& picture(Film& memory) const;
   const RayCounts& rays() const { return state_.rays; }
   const NonFiniteLog& nonfinite() const { return state_.nonfinite; }

@@ -71,12 +71,12 @@ Image LayerFilm::image(const Film& film, std::size_t layer) const {
   return out;
 }
 
-void LayerFilm::mix(const Film& film, std::span<const vec3> factors, Film& out) const {
+void LayerFilm::mix(const Film& film, std::span<const vec3> factors, Film& out, int lattice) const {
   assert(factors.size() == layers_ && film.width() == width_ && film.height() == height_);
   out.resize(width_, height_, film.origin(), film.first_sample());
 #pragma omp parallel for schedule(static)
-  for (int y = 0; y < height_; ++y)
-    for (int x = 0; x < width_; ++x) {
+  for (int y = 0; y < height_; y += lattice)
+    for (int x = 0; x < width_; x += lattice) {
       const glm::dvec3* sums = &sums_[index(x, y) * layers_];
       const vec3* odd = &odd_[index(x, y) * layers_];
       const vec3* products = &products_[index(x, y) * pairs()];

@@ -33,9 +33,9 @@ public:
   /// Mean of a layer, at factor 1; 0 where there is no sample.
   vec3 mean(const Film& film, int x, int y, std::size_t layer) const;
   Image image(const Film& film, std::size_t layer) const;
-  /// The film that has the samples of the mix, of layers() factors, in place of `film`'s; `out` is kept
-  /// memory.
-  void mix(const Film& film, std::span<const vec3> factors, Film& out) const;
+  /// The film that has the samples of the mix, of layers() factors, in place of `film`'s: of the pixels whose
+  /// x and y are multiples of `lattice`; the others mean nothing. `out` is kept memory.
+  void mix(const Film& film, std::span<const vec3> factors, Film& out, int lattice = 1) const;
 
   bool operator==(const LayerFilm&) const = default;
 
