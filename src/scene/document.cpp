@@ -1,6 +1,7 @@
 #include "scene/document.h"
 
 #include "materials/material_parts.h"
+#include "scene/light_layers.h"
 
 #include <fmt/format.h>
 
@@ -152,10 +153,11 @@ Invalidates compare_documents(const Document& before, const Document& after) {
                                accumulated_view(before.settings.view) != accumulated_view(after.settings.view)
                            ? row.invalidates
                            : Invalidates::display);
-  if (before.scene.lights != after.scene.lights || before.scene.light_groups != after.scene.light_groups ||
-      before.scene.instances != after.scene.instances || before.scene.textures != after.scene.textures)
+  if (before.scene.lights != after.scene.lights || before.scene.instances != after.scene.instances ||
+      before.scene.textures != after.scene.textures)
     return Invalidates::scene;
-  return std::max(worst, compare_materials(before.scene.materials, after.scene.materials));
+  return std::max({worst, compare_materials(before.scene.materials, after.scene.materials),
+                   compare_light_groups(before, after)});
 }
 
 bool same_content(const Document& a, const Document& b) {

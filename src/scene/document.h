@@ -19,12 +19,15 @@ enum class LightChoiceBy : int { power, contribution };
 enum class MisHeuristic : int { balance, power };
 enum class RussianRoulette : int { off, throughput, fixed };
 enum class PathComponent : int { all, emitted, direct, indirect };
+/// Where the factors of light groups act: on layers of the film, in the finished picture, or on the lights.
+enum class LightGroupsIn : int { film, scene };
 struct FilmSettings {
   int width = 512;
   int height = 512;
   FilterType filter = FilterType::box;
   float filter_radius =
       0.5f; ///< pixels, half the filter's full width (the gaussian's sigma is a third of it)
+  LightGroupsIn light_groups = LightGroupsIn::film; ///< light_layers.h has where the film cannot
   bool operator==(const FilmSettings&) const = default;
 };
 

@@ -24,6 +24,7 @@ constexpr std::string_view kHeuristics[] = {"balance", "power"};
 constexpr std::string_view kDirections[] = {"uniform", "cosine", "bsdf"};
 constexpr std::string_view kRoulette[] = {"off", "throughput", "fixed"};
 constexpr std::string_view kComponents[] = {"all", "emitted", "direct", "indirect"};
+constexpr std::string_view kLightGroups[] = {"film", "scene"};
 /// "none", then the materials' types, without those that name other materials.
 std::span<const std::string_view> override_names() {
   static const std::vector<std::string_view> names = [] {
@@ -144,6 +145,11 @@ const Field<Document> kRows[] = {
       "Half the filter's full width: a box tiles the film at 0.5, a tent interpolates at 1; usual are "
       "1.5 for gaussian (sigma is a third of it), 1.5 to 2 for blackman_harris and 2 for mitchell"},
      AT(settings.film.filter_radius)},
+    {{"film.light_groups", FieldType::choice, 0, 0, "",
+      "Where light groups are switched, scaled and coloured: in layers of the film, in the finished picture, "
+      "without a restart, or in the scene, whose samples then go where the light is",
+      Invalidates::scene, kLightGroups},
+     AT(settings.film.light_groups)},
     {{"view", FieldType::choice, 0, 0, "",
       "What a pixel shows: radiance, a property of the first surface, or a statistic of the render", kImage,
       kViews},

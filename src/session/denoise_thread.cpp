@@ -76,6 +76,7 @@ void DenoiseThread::run() {
       made->accumulation = job->accumulation;
       made->samples = job->samples;
       made->spp = job->spp;
+      made->mix = std::move(job->mix);
       made->width = width;
       made->height = height;
       made->linear = std::move(image->pixels);

@@ -2,6 +2,7 @@
 // Denoises snapshots of an accumulation on a thread of its own.
 
 #include "render/denoise/denoise_film.h"
+#include "scene/light_layers.h"
 
 #include <condition_variable>
 #include <functional>
@@ -17,6 +18,7 @@ struct DenoiseJob {
   std::uint64_t accumulation = 0; ///< Frame::generation of its frames
   std::uint64_t samples = 0;      ///< camera paths in it
   int spp = 0;
+  LightMix mix; ///< Frame::mix
   NoisyImage color;
   std::shared_ptr<const RenderScene> scene;
   std::shared_ptr<const Document> document;
@@ -26,6 +28,7 @@ struct DenoisedImage {
   std::uint64_t accumulation = 0;
   std::uint64_t samples = 0;
   int spp = 0;
+  LightMix mix; ///< Frame::mix
   int width = 0, height = 0;
   std::vector<vec3> linear; ///< row 0 is the top
 };

@@ -6,10 +6,13 @@ namespace candela {
 
 Mailbox::Receipt Mailbox::submit(Locked, Document document) {
   const Invalidates consequence = submitted_ == 0 ? Invalidates::scene : compare_documents(newest_, document);
+  const bool same_groups = newest_.scene.light_groups == document.scene.light_groups;
   newest_ = document;
   pending_ = std::move(document);
   consequence_ = std::max(consequence_, consequence);
   Receipt receipt{++submitted_, consequence >= Invalidates::image};
+  receipt.remixes = !receipt.restarts && !same_groups;
+  if (receipt.remixes) hold_ = true;
   if (receipt.restarts) {
     submitted_at_ = Clock::now();
     restarting_ = receipt.generation;

@@ -21,6 +21,7 @@ public:
   struct Receipt {
     std::uint64_t generation = 0;
     bool restarts = false; ///< whether it restarts the accumulation; then the current pass is told to end
+    bool remixes = false;  ///< whether it mixes the light layers otherwise; then the current pass is held
   };
   /// Replaces a Document that was not taken yet.
   Receipt submit(Locked, Document document);

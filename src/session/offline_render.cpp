@@ -41,6 +41,10 @@ double fill_missing(OfflineResult& result) {
     }
   for (const auto& [hole, other] : holes) {
     if (!other) continue;
+    std::vector<vec3> layers;
+    for (std::size_t i = 0; i < result.layers.layers(); ++i)
+      layers.push_back(result.layers.mean(film, other->x, other->y, i));
+    if (!layers.empty()) result.layers.add(hole.x, hole.y, 0, layers);
     film.add(hole.x, hole.y, film.mean(other->x, other->y));
     for (Film& part : result.components)
       if (part.width() > 0) part.add(hole.x, hole.y, part.mean(other->x, other->y));
@@ -65,9 +69,11 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
   result.scene_bytes = result.scene->memory_bytes();
   result.display_scale = display_scale(*result.scene, document.settings);
 
-  Accumulation accumulation(document.settings.film, {.window = options.pass.crop,
-                                                     .coarsest = until.time > 0 ? kCoarsest : 1,
-                                                     .components = options.components});
+  Accumulation accumulation(document.settings.film,
+                            {.window = options.pass.crop,
+                             .coarsest = until.time > 0 ? kCoarsest : 1,
+                             .components = options.components,
+                             .mix = light_mix(document.scene, result.scene->light_layers())});
   Accumulation::Limits limits{stop, {.seconds = kPassSeconds}, {}};
   if (options.progress)
     limits.on_pass = [&](const Accumulation& a) {
@@ -80,12 +86,18 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
 
   Accumulation::State state = std::move(accumulation).state();
   result.film = std::move(state.film);
+  result.layers = std::move(state.layers);
   result.components = std::move(state.components);
   result.rays = state.rays;
   result.nonfinite = std::move(state.nonfinite);
   result.render_seconds = state.seconds;
   result.converged = state.converged;
   if (result.spp == 0) result.missing = fill_missing(result);
+  if (const LightMix& mix = state.options.mix; !is_plain(mix)) {
+    Film mixed;
+    result.layers.mix(result.film, mix, mixed);
+    result.film = std::move(mixed);
+  }
   result.noise = std::sqrt(estimated_relmse(result.film));
   return result;
 }

@@ -26,7 +26,8 @@ struct OfflineOptions {
 
 struct OfflineResult {
   std::shared_ptr<const RenderScene> scene; ///< the rendered scene
-  Film film;                                ///< of the crop window only, if there is one
+  Film film;                                ///< of the crop window only, if there is one; mixed
+  LayerFilm layers;                         ///< beside it, of scene->light_layers()
   std::array<Film, 3> components;           ///< emitted, direct, indirect, if requested
   int spp = 0;                              ///< complete passes
   double build_seconds = 0;

@@ -60,7 +60,7 @@ bool Presenter::shows_newest(Locked, std::uint64_t samples) const {
   if (!picture_ || picture_->frame != frame_ || picture_->display != display_) return false;
   if (!denoises(*frame_) || frame_->spp < 2 || !denoise_error_.empty()) return true;
   return picture_->denoised && picture_->denoised->accumulation == frame_->generation &&
-         picture_->denoised->samples == samples;
+         picture_->denoised->samples == samples && picture_->denoised->mix == frame_->mix;
 }
 
 void Presenter::await_first_image(Locked, std::uint64_t generation, Clock::time_point submitted) {
@@ -89,10 +89,12 @@ std::shared_ptr<const Frame> Presenter::snapshot(const Source& source, bool forc
   frame->spp = from.spp();
   frame->document = source.built.document;
   frame->view = source.document.settings.view;
-  resolve_view(from.film(), frame->view, frame->coarseness, frame->linear);
+  frame->mix = from.mix();
+  const Film& picture = from.picture(mixed_);
+  resolve_view(picture, frame->view, frame->coarseness, frame->linear);
   frame->variance.clear();
   frame->samples.clear();
-  if (frame->spp > 0) resolve_statistics(from.film(), frame->variance, frame->samples);
+  if (frame->spp > 0) resolve_statistics(picture, frame->variance, frame->samples);
   frame->display_scale = display_scale(*source.built.scene, source.document.settings);
   frame->rays = from.rays();
   frame->render_seconds = from.seconds();
@@ -100,6 +102,7 @@ std::shared_ptr<const Frame> Presenter::snapshot(const Source& source, bool forc
   frame->nonfinite = from.nonfinite();
   published_samples_ = from.rays().samples;
   published_view_ = frame->view;
+  published_mix_ = frame->mix;
   published_at_ = Clock::now();
   publish_cost_ = seconds_between(start, published_at_);
   return frame;
@@ -117,7 +120,8 @@ std::unique_ptr<DenoiseJob> Presenter::denoise_job(const Source& source, bool se
   job->accumulation = source.generation;
   job->samples = samples;
   job->spp = from.spp();
-  job->color = noisy_image(from.film());
+  job->mix = from.mix();
+  job->color = noisy_image(from.picture(mixed_));
   job->scene = source.built.scene;
   job->document = source.built.document;
   return job;
@@ -149,7 +153,8 @@ void Presenter::receive_error(std::string why) {
 
 /// The newest frame's denoised image, if it is to be shown. The mutex must be held.
 std::shared_ptr<const DenoisedImage> Presenter::denoised_to_show() const {
-  const bool fits = frame_ && denoises(*frame_) && denoised_ && denoised_->accumulation == frame_->generation;
+  const bool fits = frame_ && denoises(*frame_) && denoised_ &&
+                    denoised_->accumulation == frame_->generation && denoised_->mix == frame_->mix;
   return fits ? denoised_ : nullptr;
 }
 

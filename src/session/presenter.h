@@ -61,6 +61,9 @@ public:
   /// Whether the newest snapshot has all samples, of this view.
   bool is_current(std::uint64_t samples) const { return published_samples_ == samples; }
   bool is_of_view(View view) const { return published_view_ == view; }
+  bool is_of_mix(const LightMix& mix) const { return published_mix_ == mix; }
+  /// The light layers are mixed otherwise from now on: what was denoised is out of date.
+  void remix() { denoised_samples_ = 0; }
   /// A job for the denoiser, or null if none is due. Jobs are due whenever the samples have doubled, so that
   /// their cost for the render thread falls, and when no more samples come.
   std::unique_ptr<DenoiseJob> denoise_job(const Source& source, bool settled);
@@ -95,6 +98,8 @@ private:
   std::uint64_t published_samples_ =
       0; ///< camera paths in the newest snapshot: spp may be equal for two snapshots
   View published_view_ = View::radiance;
+  LightMix published_mix_;
+  Film mixed_; ///< memory for mixes
   Clock::time_point published_at_;
   double publish_cost_ = 0;            ///< of the newest snapshot, seconds
   std::uint64_t keep_until_ = 0;       ///< with fewer samples, the current picture is better

@@ -98,10 +98,11 @@ bool RenderLoop::work() {
   const bool worked = !finished() && begin_pass();
   if (worked) take_turn();
   const bool other_view = accumulation_.spp() > 0 && !presenter_.is_of_view(current_.settings.view);
+  const bool other_mix = accumulation_.coarseness() > 0 && !presenter_.is_of_mix(accumulation_.mix());
   active_ = !finished();
   const bool settled = !active_ || !may_render(); // evaluated once, so that phase and picture agree
-  if (settled || other_view) presenter_.show_anyway();
-  if (other_view) publish(true); // from the same samples
+  if (settled || other_view || other_mix) presenter_.show_anyway();
+  if (other_view || other_mix) publish(true); // from the same samples
   if (settled && !presenter_.is_current(accumulation_.rays().samples)) publish(true);
   feed_denoiser(settled);
   const auto lock = monitor_.lock();
@@ -141,8 +142,21 @@ bool RenderLoop::take_document() {
     }
     status_.phase = restarts ? SessionPhase::building : SessionPhase::rendering;
   }
-  if (restarts) restart();
+  if (restarts)
+    restart();
+  else
+    remix();
   return true;
+}
+
+/// Applies the factors of the current Document's light groups to the film's layers.
+void RenderLoop::remix() {
+  if (built_.scene == nullptr || built_.document->scene.light_groups == current_.scene.light_groups) return;
+  accumulation_.set_mix(light_mix(current_.scene, built_.scene->light_layers()), current_.settings.stop);
+  presenter_.remix();
+  const auto lock = monitor_.lock();
+  scenes_.set_light_groups(lock, current_.scene.light_groups);
+  built_ = scenes_.newest(lock);
 }
 
 void RenderLoop::restart() {
@@ -165,6 +179,7 @@ void RenderLoop::restart() {
   presenter_.begin_accumulation(0);
   accumulation_.restart(
       size, {.coarsest = coarsest_lattice(static_cast<double>(size.width) * size.height, usual_seconds_),
+             .mix = light_mix(current_.scene, built_.scene->light_layers()),
              .whole_first_pass = true});
 }
 
@@ -179,7 +194,8 @@ void RenderLoop::improve() {
   if (made == nullptr) return;
   urgent_ = false;
   presenter_.begin_accumulation(accumulation_.rays().samples);
-  accumulation_.restart(current_.settings.film, {.whole_first_pass = true});
+  accumulation_.restart(current_.settings.film,
+                        {.mix = light_mix(current_.scene, made->light_layers()), .whole_first_pass = true});
   const auto lock = monitor_.lock();
   scenes_.adopt_improved(lock, std::move(made));
   built_ = scenes_.newest(lock);

@@ -41,6 +41,7 @@ private:
   bool work();
   bool take_document();
   void restart();
+  void remix();
   void improve();
   void apply_region();
   bool begin_pass();

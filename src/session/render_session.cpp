@@ -18,7 +18,7 @@ std::uint64_t RenderSession::submit(Document document) {
       s.scenes.cancel(lock);
     s.presenter.set_display(lock, document.settings.display);
     receipt = s.mailbox.submit(lock, std::move(document));
-    if (receipt.restarts) dropped = s.presenter.outdate(lock);
+    if (receipt.restarts || receipt.remixes) dropped = s.presenter.outdate(lock);
     turns = s.renderer.turns(lock);
   }
   s.monitor.changed.notify_all();

@@ -35,6 +35,12 @@ void SceneCache::adopt(Locked lock, std::shared_ptr<const RenderScene> scene, co
   geometry_.adopt(lock);
 }
 
+void SceneCache::set_light_groups(Locked, const std::vector<LightGroup>& groups) {
+  auto document = std::make_shared<Document>(*newest_.document);
+  document->scene.light_groups = groups;
+  newest_.document = std::move(document);
+}
+
 std::shared_ptr<const RenderScene> SceneCache::build_improved(const Document& document) {
   std::shared_ptr<const Geometry> better;
   {

@@ -40,6 +40,9 @@ public:
   /// Render thread: makes the scene the newest one.
   void adopt(Locked, std::shared_ptr<const RenderScene> scene, const Document& document);
 
+  /// Render thread: the newest scene is that of a document with other factors of the same light layers.
+  void set_light_groups(Locked, const std::vector<LightGroup>& groups);
+
   /// Render thread: the newest scene with better geometry, if that has been built and the scene is that of
   /// `document`; else null.
   std::shared_ptr<const RenderScene> build_improved(const Document& document);

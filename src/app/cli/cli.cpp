@@ -126,7 +126,8 @@ int run(int argc, char** argv) {
   render
       ->add_option(
           "--aov", render_options.aovs,
-          "Also write this view, or emitted, direct or indirect light, as OUTPUT.NAME.EXT; may repeat")
+          "Also write this view, or emitted, direct or indirect light, as OUTPUT.NAME.EXT, or light_groups, "
+          "an EXR with a layer each; may repeat")
       ->take_all()
       ->allow_extra_args(false);
   render->add_option("--size", render_options.size, "Size of the image, WxH");

@@ -150,8 +150,9 @@ void check_render_outputs(const RenderOptions& options, const std::vector<std::s
     if (path.starts_with('=')) // -o=FILE is -o with the file =FILE
       throw usage_error("-o" + path, "the name begins with '='", fmt::format("write -o {}", path.substr(1)));
     planned.push_back({"-o", path});
-    for (const Aov& aov : aovs) planned.push_back({"--aov", aov_path(path, aov.name)});
   }
+  for (const Aov& aov : aovs)
+    for (const std::string& path : aov_paths(aov, pictures)) planned.push_back({"--aov", path});
   if (options.stats) planned.push_back({"--stats", *options.stats});
   if (options.reference) inputs.push_back(*options.reference);
   if (options.scene.path != options.reference && !is_image_name(options.scene.path))
@@ -221,6 +222,7 @@ int run_render(const RenderOptions& options) {
   const std::vector<std::string> outputs = options.outputs.empty() ? loaded.output_files : options.outputs;
   if (outputs.empty()) throw usage_error("render", "there is nowhere to write to", "add -o FILE");
   check_render_outputs(options, outputs, aovs, picture_files(loaded.document.scene));
+  check_aovs(aovs, loaded.document);
   if (reference) check_reference(*reference, *options.reference, picture_size(film, offline.pass.crop));
   offline.components = needs_components(aovs);
 

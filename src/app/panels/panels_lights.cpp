@@ -3,6 +3,7 @@
 #include "app/panels/panel_list.h"
 #include "app/panels/texture_picker.h"
 #include "app/ui/item_list.h"
+#include "scene/light_layers.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -77,23 +78,30 @@ void group_of(Ui& ui, ViewerState& state, std::string& group) {
   state.edited |= group != before;
 }
 
-/// Switches and scales of all groups.
+LightGroup group_of_name(const SceneDesc& scene, const std::string& name) {
+  const auto known = std::ranges::find(scene.light_groups, name, &LightGroup::name);
+  return known != scene.light_groups.end() ? *known : LightGroup{name};
+}
+
+/// The mixer of all groups.
 void light_groups(Ui& ui, ViewerState& state) {
   SceneDesc& scene = state.document.scene;
   const std::vector<std::string> names = light_group_names(scene);
+  if (names.empty()) return;
+  if (const std::string problem = layers_problem(state.document); !problem.empty())
+    ImGui::TextWrapped("Groups restart the picture: %s.", problem.c_str());
   for (std::size_t i = 0; i < names.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     ui.readout("group", names[i], "Lights of one name are switched and scaled together");
-    const auto known = std::ranges::find(scene.light_groups, names[i], &LightGroup::name);
-    LightGroup group = known != scene.light_groups.end() ? *known : LightGroup();
+    LightGroup group = group_of_name(scene, names[i]), home = group_of_name(state.home.scene, names[i]);
     bool changed = false;
     for (const auto& row : light_group_fields()) {
       FieldContext context;
+      context.initial = row.address(home);
       changed |= ui.field(fmt::format("light_group.{}.{}", i, row.key), row, row.address(group), context);
     }
     if (changed) {
-      LightGroup& kept = light_group(scene, names[i]);
-      kept.on = group.on, kept.scale = group.scale;
+      light_group(scene, names[i]) = group;
       state.edited = true;
     }
     ImGui::PopID();

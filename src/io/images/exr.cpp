@@ -254,20 +254,27 @@ std::optional<std::string> exr_text(ByteView bytes, const std::string& name, con
       where);
 }
 
-Bytes encode_exr(const Image& image, const std::string& path, const ImageMetadata& metadata) {
+Bytes encode_exr(const Image& image, const std::string& path, const ImageMetadata& metadata,
+                 std::span<const ImageLayer> layers) {
   MemoryOutput stream(path);
   try {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::addChromaticities(header, Imf::Chromaticities()); // Rec. 709
-    for (const char* name : {"R", "G", "B"}) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    Imf::FrameBuffer frame;
+    auto add = [&](const std::string& prefix, const Image& picture) {
+      for (int c = 0; c < 3; ++c) { // the library's slices are not const; writing only reads them
+        const std::string name = prefix + "RGB"[c];
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        frame.insert(name, Imf::Slice::Make(Imf::FLOAT, &const_cast<Image&>(picture).pixels[0][c],
+                                            header.dataWindow(), sizeof(vec3),
+                                            sizeof(vec3) * static_cast<std::size_t>(image.width)));
+      }
+    };
+    add("", image);
+    for (const ImageLayer& layer : layers) add(layer.name + ".", layer.image);
     for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
     Imf::OutputFile file(stream, header);
-    Imf::FrameBuffer frame;
-    for (int c = 0; c < 3; ++c) // the library's slices are not const; writing only reads them
-      frame.insert(std::array{"R", "G", "B"}[static_cast<std::size_t>(c)],
-                   Imf::Slice::Make(Imf::FLOAT, &const_cast<Image&>(image).pixels[0][c], header.dataWindow(),
-                                    sizeof(vec3), sizeof(vec3) * static_cast<std::size_t>(image.width)));
     file.setFrameBuffer(frame);
     file.writePixels(image.height);
   } catch (const Iex::BaseExc& problem) { throw output_error(path, problem.what(), "check its attributes"); }

@@ -97,7 +97,9 @@ Image decode_exr(ByteView bytes, const Location& where, ProgressPart* progress =
 /// The string attribute of that name; nothing if there is none.
 std::optional<std::string> exr_text(ByteView bytes, const std::string& name, const Location& where);
 /// `path` is for messages.
-Bytes encode_exr(const Image& image, const std::string& path, const ImageMetadata& metadata);
+/// `layers` beside the image, of its size.
+Bytes encode_exr(const Image& image, const std::string& path, const ImageMetadata& metadata,
+                 std::span<const ImageLayer> layers = {});
 
 // hdr.cpp: Radiance RGBE.
 bool is_hdr(ByteView bytes);

@@ -92,6 +92,15 @@ void write_linear_image(const Image& image, const std::string& path, const Image
   throw usage_error(path, "the format does not hold linear values", "use .exr, .hdr or .pfm");
 }
 
+void write_exr_layers(const Image& image, std::span<const ImageLayer> layers, const std::string& path,
+                      const ImageMetadata& metadata) {
+  const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  check_written_size(path, image.width, image.height, image.pixels.size(), pixels);
+  for (const ImageLayer& layer : layers)
+    check_written_size(path, image.width, image.height, layer.image.pixels.size(), pixels);
+  write_file_atomically(path, encode_exr(image, path, metadata, layers));
+}
+
 void write_srgb8_image(int width, int height, std::span<const std::uint8_t> rgb, const std::string& path,
                        const ImageMetadata& metadata) {
   check_written_size(path, width, height, rgb.size(),

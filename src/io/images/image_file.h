@@ -39,6 +39,15 @@ using ImageMetadata = std::map<std::string, std::string>;
 /// atomically. A usage error for other endings, output_error if the file cannot be written.
 void write_linear_image(const Image& image, const std::string& path, const ImageMetadata& metadata = {});
 
+/// A picture of a file that has several; its channels are called "name.R", "name.G" and "name.B".
+struct ImageLayer {
+  std::string name;
+  Image image;
+};
+/// Writes an EXR of the image and layers of its size, beside each other, as write_linear_image().
+void write_exr_layers(const Image& image, std::span<const ImageLayer> layers, const std::string& path,
+                      const ImageMetadata& metadata = {});
+
 /// Writes PNG, JPG (quality 95) or PPM by the ending, from rows of three bytes a pixel, top row first.
 void write_srgb8_image(int width, int height, std::span<const std::uint8_t> rgb, const std::string& path,
                        const ImageMetadata& metadata = {});

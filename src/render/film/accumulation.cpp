@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -52,8 +53,10 @@ void Accumulation::restart(const FilmSettings& frame, const AccumulationOptions&
   fresh.next_lattice = options.coarsest;
   blank_ = state_.film.width() == 0 || state_.film.height() == 0;
   fresh.film = std::move(state_.film);
-  if (blank_) fresh.film = Film();
+  if (!options.mix.empty()) fresh.layers = std::move(state_.layers);
+  if (blank_) fresh.film = Film(), fresh.layers = LayerFilm();
   fresh.film.resize(part.width, part.height, origin, options.first_sample);
+  fresh.layers.resize(options.mix.size(), part.width, part.height);
   if (options.components)
     for (Film& f : fresh.components) f = Film(part.width, part.height, origin, options.first_sample);
   fresh.schedule = std::move(state_.schedule); // its region stays
@@ -86,6 +89,25 @@ double Accumulation::fraction(const StopSettings& until) const {
   const double by_spp = until.spp > 0 ? static_cast<double>(spp()) / until.spp : 0;
   const double by_time = until.time > 0 ? state_.seconds / static_cast<double>(until.time) : 0;
   return std::min(std::max(by_spp, by_time), 1.0);
+}
+
+void Accumulation::set_mix(const LightMix& mix, const StopSettings& until) {
+  assert(mix.size() == state_.options.mix.size());
+  if (mix == state_.options.mix) return;
+  state_.options.mix = mix;
+  state_.noise = std::numeric_limits<double>::infinity();
+  if (until.noise > 0 && is_noise_check(spp())) estimate_noise();
+}
+
+const Film& Accumulation::picture(Film& memory) const {
+  if (is_plain(state_.options.mix)) return state_.film;
+  state_.layers.mix(state_.film, state_.options.mix, memory, std::max(coarseness(), 1));
+  return memory;
+}
+
+void Accumulation::estimate_noise() {
+  Film memory;
+  state_.noise = std::sqrt(estimated_relmse(picture(memory)));
 }
 
 void Accumulation::set_region(const CropWindow& region) {
@@ -136,6 +158,7 @@ Accumulation::Pass Accumulation::next(const StopSettings& until, const Portion& 
 /// picture.
 void Accumulation::clear(const SampleRange& range) {
   state_.film.clear(range.lattice, range.skip_lattice);
+  if (state_.layers.layers() > 0) state_.layers.clear(range.lattice, range.skip_lattice);
   for (Film& f : state_.components)
     if (f.width() > 0) f.clear(range.lattice, range.skip_lattice);
 }
@@ -151,6 +174,7 @@ Accumulation::Step Accumulation::step(const Pass& pass, PassRenderer& renderer, 
   PassFilms films{state_.film, {}};
   for (std::size_t i = 0; i < films.components.size(); ++i)
     if (state_.options.components) films.components[i] = &state_.components[i];
+  if (!state_.options.mix.empty()) films.layers = &state_.layers;
   const auto rendering = Clock::now();
   const PassResult result = renderer.render({scene, document, pass.range, pass.window}, films, stop);
   Step step{result.completed, result.rays, seconds_since(rendering)};
@@ -178,8 +202,7 @@ void Accumulation::complete(const Pass& pass, const PassResult& result, const Re
   }
   if (spp() == 0) return;
   state_.converged = result.converged && settings.adaptive.error > 0;
-  if (settings.stop.noise > 0 && is_noise_check(spp()))
-    state_.noise = std::sqrt(estimated_relmse(state_.film));
+  if (settings.stop.noise > 0 && is_noise_check(spp())) estimate_noise();
 }
 
 bool Accumulation::merge(const Accumulation& later) {
@@ -192,6 +215,7 @@ bool Accumulation::merge(const Accumulation& later) {
   const bool may_begin = state_.next_lattice == 0 || at_coarsest();
   if (other.next_lattice != 0 || other.open || !is_even || state_.open || !may_begin ||
       other.options.components != state_.options.components ||
+      other.options.mix.size() != state_.options.mix.size() ||
       (continues && (has_stopped_pixels(other.film) || has_stopped_pixels(state_.film))))
     return false;
   SampleSchedule schedule = state_.schedule;
@@ -201,6 +225,7 @@ bool Accumulation::merge(const Accumulation& later) {
   state_.schedule = std::move(schedule);
   state_.next_lattice = 0;
   state_.visited_lattice = 1;
+  state_.layers.append(other.layers, state_.film, other.film);
   state_.film.append(other.film);
   for (std::size_t i = 0; i < state_.components.size(); ++i) state_.components[i].append(other.components[i]);
   state_.rays += other.rays;
@@ -209,7 +234,7 @@ bool Accumulation::merge(const Accumulation& later) {
   if (was_empty) state_.first_pass_seconds = other.first_pass_seconds;
   state_.converged = has_stopped_pixels(state_.film) &&
                      all_pixels(state_.film, [&](int x, int y) { return state_.film.stopped(x, y); });
-  if (is_noise_check(spp())) state_.noise = std::sqrt(estimated_relmse(state_.film));
+  if (is_noise_check(spp())) estimate_noise();
   return true;
 }
 

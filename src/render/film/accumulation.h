@@ -5,6 +5,7 @@
 
 #include "render/film/pass_renderer.h"
 #include "render/film/sample_schedule.h"
+#include "scene/light_layers.h"
 
 #include <functional>
 #include <limits>
@@ -17,6 +18,8 @@ struct AccumulationOptions {
   /// complete picture. 1: all at once.
   int coarsest = 1;
   bool components = false; ///< also store the emitted, direct and indirect components separately
+  /// Factors of the scene's light layers, which are then kept apart; empty: there are none.
+  LightMix mix{};
   /// Sample indices begin here, where another accumulation holds those before.
   std::uint32_t first_sample = 0;
   /// The time limit does not end the first pass.
@@ -36,7 +39,10 @@ public:
   /// All that it is, as plain values: what a checkpoint stores and a rank sends.
   struct State {
     AccumulationOptions options;
-    Film film;                      ///< pixels that the first pass has not visited yet mean nothing
+    /// The sum of the light layers, whatever their factors. Pixels that the first pass has not visited yet
+    /// mean nothing.
+    Film film;
+    LayerFilm layers;               ///< where options.mix has any
     std::array<Film, 3> components; ///< emitted, direct, indirect, where asked for
     /// Of the first pass: distance of the pixels that have their sample, 0: none; of those that are next, 0:
     /// it is complete.
@@ -97,6 +103,11 @@ public:
   /// Share of the way to the nearest of stop.spp and stop.time, 0..1; 0 where there is neither.
   double fraction(const StopSettings& until) const;
 
+  /// Other factors of the same light layers: of the samples that there are, and of those that come. Where
+  /// the noise of the mix is not known, it is found at the next sample number at which stop.noise is tested.
+  void set_mix(const LightMix& mix, const StopSettings& until);
+  const LightMix& mix() const { return state_.options.mix; }
+
   /// Only these pixels get samples after the first pass; empty: all. Those that fell behind catch up.
   void set_region(const CropWindow& region);
 
@@ -114,7 +125,11 @@ public:
   int coarseness() const { return spp() > 0 ? 1 : state_.visited_lattice; }
   bool at_coarsest() const { return state_.visited_lattice == 0 && state_.next_lattice != 0; }
 
+  /// At factor 1 of all light layers.
   const Film& film() const { return state_.film; }
+  /// That of the mix: film(), or made in `memory`; while the first pass is coarse, of the pixels that it has
+  /// visited.
+  const Film& picture(Film& memory) const;
   const RayCounts& rays() const { return state_.rays; }
   const NonFiniteLog& nonfinite() const { return state_.nonfinite; }
   double seconds() const { return state_.seconds; }
@@ -129,6 +144,7 @@ public:
 private:
   CropWindow window() const;
   void clear(const SampleRange& range);
+  void estimate_noise();
   void complete(const Pass& pass, const PassResult& result, const RenderSettings& settings);
 
   State state_;

@@ -45,6 +45,16 @@ double Film::relative_variance(int x, int y) const {
   return candela::relative_variance(mean(x, y), variance_of_mean(x, y));
 }
 
+void Film::set(int x, int y, const Sums& sums, const Film& counted) {
+  Pixel& p = pixel(x, y);
+  p = counted.pixel(x, y);
+  for (int c = 0; c < 3; ++c) {
+    p.sum[c] = sums.sum[c];
+    p.sum_of_squares[c] = sums.sum_of_squares[c];
+  }
+  p.odd = sums.odd;
+}
+
 void Film::append(const Film& later) {
   const ivec2 shift = later.origin_ - origin_;
   for (int y = 0; y < later.height_; ++y)

@@ -58,6 +58,14 @@ public:
   bool stopped(int x, int y) const { return pixel(x, y).stopped; }
   void stop(int x, int y) { pixel(x, y).stopped = true; }
 
+  /// What a pixel's samples add up to.
+  struct Sums {
+    glm::dvec3 sum{0}, sum_of_squares{0};
+    vec3 odd{0}; ///< of the second, fourth, ... sample
+  };
+  /// The pixel becomes that of `counted`, with other sums (LayerFilm::mix).
+  void set(int x, int y, const Sums& sums, const Film& counted);
+
   /// Adds the pixels of a film whose window lies within this one's: `later` holds the samples that come next.
   void append(const Film& later);
 

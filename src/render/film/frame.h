@@ -3,7 +3,7 @@
 
 #include "render/film/nonfinite_log.h"
 #include "render/integrators/ray_counts.h"
-#include "scene/document.h"
+#include "scene/light_layers.h"
 
 #include <cstdint>
 #include <memory>
@@ -17,7 +17,9 @@ struct Frame {
   int height = 0;
   int coarseness = 1; ///< side of the blocks of one sample while the first pass refines: 8, 4, 2, then 1
   int spp = 0;        ///< complete passes
-  std::shared_ptr<const Document> document; ///< as it was when the accumulation began
+  /// As it was when the accumulation began, with the light groups as they are.
+  std::shared_ptr<const Document> document;
+  LightMix mix; ///< of the light layers that it shows; empty: there are none
   View view = View::radiance;
   std::vector<vec3> linear; ///< the view; row 0 is the top; holes of a coarse pass filled from their block
   /// Per pixel, of the accumulated mean; empty while the first pass is coarse.

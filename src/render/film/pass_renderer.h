@@ -4,7 +4,7 @@
 
 #include "core/stop_condition.h"
 #include "render/camera/camera_model.h"
-#include "render/film/film.h"
+#include "render/film/layer_film.h"
 #include "render/film/nonfinite_log.h"
 #include "render/film/sample_range.h"
 #include "render/integrators/ray_counts.h"
@@ -33,6 +33,9 @@ struct PassFilms {
   /// Films of the image's size and origin for the emitted, the direct and the indirect part of the same
   /// samples; null: none.
   std::array<Film*, 3> components{};
+  /// Of the image's size, with the scene's light layers; null: none. Then `image` holds their sum, at factor
+  /// 1, and the components the mix with the document's factors.
+  LayerFilm* layers = nullptr;
 };
 
 struct PassResult {

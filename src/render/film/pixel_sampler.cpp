@@ -50,23 +50,42 @@ PixelSample PixelSampler::sample(const SampleIndex& index) {
 void PixelSampler::evaluate(std::span<const SampleIndex> indices, std::span<PixelSample> results,
                             RayCounts& counts) {
   start(indices);
+  layers_.resize(indices.size() * layer_count_);
+  const std::span<PathSample> layers(layers_.data(), starts_.size() * layer_count_);
   if (starts_.size() < indices.size()) // samples without a ray are black
     std::fill_n(results.begin(), indices.size(), PixelSample{});
   if (!shows_light()) {
     view_first_hits(results, counts);
   } else if (follows_paths()) {
     parts_.resize(starts_.size());
-    if (!paths_.trace(starts_, parts_, counts, stop_)) return;
+    if (!paths_.trace(starts_, parts_, counts, stop_, layers)) return;
     for (std::size_t i = 0; i < starts_.size(); ++i) show(parts_[i], results[sample_of_[i]]);
   } else {
     for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i)
-      sample_singly(starts_[i], results[sample_of_[i]], counts);
+      sample_singly(starts_[i], results[sample_of_[i]], layers.subspan(i * layer_count_, layer_count_),
+                    counts);
   }
+  if (layer_count_ > 0) place_layers(indices.size());
   for (std::size_t i = 0; i < starts_.size(); ++i) { // as the pixel's filter and the camera weigh them
     if (weights_[i] == 1) continue;                  // always, for most filters
     results[sample_of_[i]].value *= weights_[i];
     results[sample_of_[i]].parts *= weights_[i];
   }
+}
+
+/// Brings the layers of the samples that have a ray, which lie first, to their samples, and weighs them.
+void PixelSampler::place_layers(std::size_t count) {
+  const auto n = static_cast<std::ptrdiff_t>(layer_count_);
+  auto at = [&](std::size_t i) { return layers_.begin() + static_cast<std::ptrdiff_t>(i) * n; };
+  std::size_t free = count; // from here on all are in their places
+  for (std::size_t i = starts_.size(); i-- > 0; free = sample_of_[i]) {
+    const std::size_t to = sample_of_[i]; // at i or behind
+    std::fill(at(to + 1), at(free), PathSample{});
+    if (to != i) std::copy(at(i), at(i + 1), at(to));
+    if (weights_[i] == 1) continue;
+    for (auto layer = at(to); layer != at(to + 1); ++layer) *layer *= weights_[i];
+  }
+  std::fill(at(0), at(free), PathSample{});
 }
 
 bool PixelSampler::shows_light() const {
@@ -127,9 +146,10 @@ void PixelSampler::view_first_hits(std::span<PixelSample> results, RayCounts& co
 }
 
 /// By an integrator that takes one sample after the other.
-void PixelSampler::sample_singly(PathStart& start, PixelSample& result, RayCounts& counts) {
+void PixelSampler::sample_singly(PathStart& start, PixelSample& result, std::span<PathSample> layers,
+                                 RayCounts& counts) {
   if (settings_.integrator == Integrator::whitted)
-    show(whitted_radiance(scene_, start, start.sampler, settings_.path, direct_light_, counts, stop_),
+    show(whitted_radiance(scene_, start, start.sampler, settings_.path, direct_light_, counts, stop_, layers),
          result);
   else
     show(ambient_occlusion_sample(scene_, start, start.sampler, settings_, counts), result);

@@ -34,13 +34,21 @@ public:
   bool sample(std::span<const SampleIndex> indices, std::span<PixelSample> results, RayCounts& counts);
   PixelSample sample(const SampleIndex& index);
 
+  /// From now on the samples are kept by the scene's light layers, too.
+  void keep_layers() { layer_count_ = scene_.layer_count(); }
+  /// Those of the i-th of the newest results; none where they are not kept. The clamp is not applied.
+  std::span<const PathSample> layers(std::size_t i) const {
+    return {layers_.data() + i * layer_count_, layer_count_};
+  }
+
 private:
   void evaluate(std::span<const SampleIndex> indices, std::span<PixelSample> results, RayCounts& counts);
   void start(std::span<const SampleIndex> indices);
   bool shows_light() const;
   bool follows_paths() const;
   void view_first_hits(std::span<PixelSample> results, RayCounts& counts);
-  void sample_singly(PathStart& start, PixelSample& result, RayCounts& counts);
+  void sample_singly(PathStart& start, PixelSample& result, std::span<PathSample> layers, RayCounts& counts);
+  void place_layers(std::size_t count);
   void show(const PathSample& parts, PixelSample& result) const;
 
   StopPoll stop_;
@@ -56,6 +64,8 @@ private:
   // Parallel to the samples in flight:
   std::vector<Sampler::Draw> draws_;
   std::vector<vec2> film_, lens_;
+  std::size_t layer_count_ = 0;    ///< 0: they are not kept
+  std::vector<PathSample> layers_; ///< so many of each
   // Parallel to those of them that have a ray:
   std::vector<PathStart> starts_;
   std::vector<std::size_t> sample_of_; ///< index into the samples

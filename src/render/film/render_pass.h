@@ -11,6 +11,7 @@ struct PassOptions {
   int threads = 0; ///< 0: every core
   CropWindow crop;
   std::array<Film*, 3> components{};                   ///< as PassFilms::components
+  LayerFilm* layers = nullptr;                         ///< likewise
   std::shared_ptr<const CameraModel> camera = nullptr; ///< as PassJob::camera
 };
 

@@ -15,6 +15,11 @@ SampleQueue::SampleQueue(PixelSampler& sampler, const PassJob& job, const PassFi
     : sampler_(sampler), job_(job), films_(films) {
   indices_.reserve(kBatch);
   samples_.resize(kBatch);
+  if (films.layers == nullptr) return;
+  sampler_.keep_layers();
+  layer_values_.resize(films.layers->layers());
+  LightMix mix = light_mix(job.document.scene, job.scene.light_layers());
+  if (!is_plain(mix)) mix_ = std::move(mix);
 }
 
 void SampleQueue::sample_all(const PixelBox& window, SampleRange samples, PassResult& result) {
@@ -38,11 +43,13 @@ void SampleQueue::push(const SampleIndex& index, PassResult& result) {
 void SampleQueue::flush(PassResult& result) {
   if (indices_.empty()) return;
   stopped_ = stopped_ || !sampler_.sample(indices_, {samples_.data(), indices_.size()}, result.rays);
-  for (std::size_t i = 0; i < indices_.size() && !stopped_; ++i) add(indices_[i], samples_[i], result);
+  for (std::size_t i = 0; i < indices_.size() && !stopped_; ++i)
+    add(indices_[i], samples_[i], sampler_.layers(i), result);
   indices_.clear();
 }
 
-void SampleQueue::add(const SampleIndex& index, const PixelSample& s, PassResult& result) {
+void SampleQueue::add(const SampleIndex& index, const PixelSample& s, std::span<const PathSample> layers,
+                      PassResult& result) {
   const ivec2 at = ivec2(index.pixel) - films_.image.origin();
   if (!is_finite(s.value)) {
     films_.image.add_nonfinite(at.x, at.y);
@@ -51,10 +58,32 @@ void SampleQueue::add(const SampleIndex& index, const PixelSample& s, PassResult
     result.nonfinite.add({index.pixel, index.sample, depth});
     return;
   }
+  if (films_.layers != nullptr) add_layers(at, s, layers);
   films_.image.add(at.x, at.y, s.value);
-  const vec3 parts[3] = {s.parts.emitted, s.parts.direct, s.parts.indirect()};
+  vec3 parts[3] = {s.parts.emitted, s.parts.direct, s.parts.indirect()};
+  if (!mix_.empty()) {
+    std::ranges::fill(parts, vec3(0));
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      parts[0] += mix_[i] * layers[i].emitted;
+      parts[1] += mix_[i] * layers[i].direct;
+      parts[2] += mix_[i] * layers[i].indirect();
+    }
+  }
   for (std::size_t c = 0; c < 3; ++c)
     if (films_.components[c] != nullptr) films_.components[c]->add(at.x, at.y, parts[c]);
+}
+
+/// Before the image: the layers count by its samples. Where path.clamp has cut the sample, all layers lose
+/// the same share, so that they still add up to it.
+void SampleQueue::add_layers(ivec2 at, const PixelSample& s, std::span<const PathSample> layers) {
+  vec3 share(1);
+  if (job_.document.settings.path.clamp > 0) {
+    const vec3 whole = s.parts.radiance();
+    for (int c = 0; c < 3; ++c)
+      if (s.value[c] < whole[c]) share[c] = s.value[c] / whole[c];
+  }
+  for (std::size_t i = 0; i < layers.size(); ++i) layer_values_[i] = share * layers[i].radiance();
+  films_.layers->add(at.x, at.y, films_.image.count(at.x, at.y), layer_values_);
 }
 
 } // namespace candela

@@ -3,6 +3,7 @@
 
 #include "render/film/pass_renderer.h"
 #include "render/film/pixel_sampler.h"
+#include "scene/light_layers.h"
 
 namespace candela {
 
@@ -23,13 +24,17 @@ public:
 private:
   void push(const SampleIndex& index, PassResult& result);
   void flush(PassResult& result);
-  void add(const SampleIndex& index, const PixelSample& s, PassResult& result);
+  void add(const SampleIndex& index, const PixelSample& s, std::span<const PathSample> layers,
+           PassResult& result);
+  void add_layers(ivec2 at, const PixelSample& s, std::span<const PathSample> layers);
 
   PixelSampler& sampler_;
   const PassJob& job_;
   const PassFilms& films_;
   std::vector<SampleIndex> indices_;
   std::vector<PixelSample> samples_;
+  LightMix mix_; ///< of the components; empty where that is the sum
+  std::vector<vec3> layer_values_;
   bool stopped_ = false;
 };
 

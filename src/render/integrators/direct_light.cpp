@@ -62,8 +62,8 @@ void DirectLight::look_up_radiance(const RenderScene& scene) {
 
 /// Makes the shadow rays of the samples that contribute, with their MIS weights. All are made before the
 /// first is traced: one that has just been written by parts stalls the processor when it is loaded whole.
-void DirectLight::weight_samples(const VertexLanes& vertices, const ShadingPoints& points,
-                                 const PathSettings& settings) {
+void DirectLight::weight_samples(const RenderScene& scene, const VertexLanes& vertices,
+                                 const ShadingPoints& points, const PathSettings& settings) {
   shadow_count_ = 0;
   const auto n = static_cast<float>(settings.light_samples);
   for (const LightQuery& query : std::span(queries_.data(), query_count_)) {
@@ -80,6 +80,8 @@ void DirectLight::weight_samples(const VertexLanes& vertices, const ShadingPoint
     ShadowRay& shadow = shadows_[shadow_count_++];
     shadow.lane = i;
     shadow.light = contribution * (weight / (pdf * n));
+    if (points.layered != nullptr)
+      shadow.layer = scene.layer_of_light(static_cast<std::uint32_t>(query.light - scene.lights().data()));
     set_ray(shadow);
   }
 }
@@ -95,6 +97,12 @@ void DirectLight::set_ray(ShadowRay& shadow) const {
   shadow.ray.t_max = infinite ? kInfinity : 1 - gamma_bound(16);
 }
 
+/// Gives a point the light of the shadow ray that reaches it.
+void DirectLight::add(ShadingPoints& points, const ShadowRay& shadow, Spectrum light) {
+  points.light[shadow.lane] += light;
+  if (points.layered != nullptr) points.layered->push_back({shadow.lane, shadow.layer, light});
+}
+
 /// Gives the points the light that reaches them.
 void DirectLight::trace_shadow_rays(const RenderScene& scene, ShadingPoints& points, RayCounts& counts,
                                     StopPoll& stop) {
@@ -103,7 +111,7 @@ void DirectLight::trace_shadow_rays(const RenderScene& scene, ShadingPoints& poi
   if (!points.coherent && !anything_passes) {
     counts.shadow += shadows.size();
     for (const ShadowRay& shadow : shadows)
-      if (!scene.geometry().accel().occluded(shadow.ray)) points.light[shadow.lane] += shadow.light;
+      if (!scene.geometry().accel().occluded(shadow.ray)) add(points, shadow, shadow.light);
     return;
   }
   if (anything_passes) {
@@ -112,7 +120,7 @@ void DirectLight::trace_shadow_rays(const RenderScene& scene, ShadingPoints& poi
       const MediumStack* media = scene.has_media() ? points.media[shadow.lane] : nullptr;
       const Spectrum through =
           transmittance(scene, shadow.ray, shadow.target, *points.sampler[shadow.lane], counts, media);
-      if (!is_black(through)) points.light[shadow.lane] += shadow.light * through;
+      if (!is_black(through)) add(points, shadow, shadow.light * through);
     }
     return;
   }
@@ -122,12 +130,13 @@ void DirectLight::trace_shadow_rays(const RenderScene& scene, ShadingPoints& poi
   counts.shadow += shadows.size();
   scene.geometry().accel().occluded({rays.data(), shadows.size()}, occluded);
   for (std::size_t k = 0; k < shadows.size(); ++k)
-    if (!occluded[k]) points.light[shadows[k].lane] += shadows[k].light;
+    if (!occluded[k]) add(points, shadows[k], shadows[k].light);
 }
 
 void DirectLight::estimate(const RenderScene& scene, const VertexLanes& vertices, ShadingPoints& points,
                            const PathSettings& settings, RayCounts& counts, StopPoll& stop) {
   for (std::size_t k = 0; k < points.count; ++k) points.light[points.lane[k]] = Spectrum(0);
+  if (points.layered != nullptr) points.layered->clear();
   const bool all = settings.light_sampling != LightSampling::bsdf;
   const LightSelection& selection = all ? scene.all_lights() : scene.delta_lights();
   if (selection.empty()) return;
@@ -137,7 +146,7 @@ void DirectLight::estimate(const RenderScene& scene, const VertexLanes& vertices
     sample_lights({queries_.data(), query_count_}, lights_);
     if (scene.has_textured_lights()) look_up_radiance(scene);
     set_directions(vertices, lights_, directions_);
-    weight_samples(vertices, points, settings);
+    weight_samples(scene, vertices, points, settings);
     trace_shadow_rays(scene, points, counts, stop);
     if (stop.asked()) return;
   }

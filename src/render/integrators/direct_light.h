@@ -6,7 +6,17 @@
 #include "render/integrators/vertex_lanes.h"
 #include "render/lights/light_lanes.h"
 
+#include <span>
+#include <vector>
+
 namespace candela {
+
+/// Light of one layer (RenderScene::layer_of_light) at the shading point in a lane.
+struct LayeredLight {
+  std::uint32_t lane;
+  std::uint8_t layer;
+  Spectrum light;
+};
 
 /// The points that lights are sampled for: some lanes of VertexLanes.
 struct ShadingPoints {
@@ -18,6 +28,8 @@ struct ShadingPoints {
   Lanes<int> bsdf_samples;         ///< directions that BSDF sampling will take there, for MIS
   Lanes<const MediumStack*> media; ///< of the point, on the side of wo; in scenes with media
   Lanes<Spectrum> light;           ///< output: the estimate of f |cos| x radiance
+  /// Output, if not null: the parts of `light`, with the layers of their lights.
+  std::vector<LayeredLight>* layered = nullptr;
 };
 
 /// Density, 1/sr, with which light sampling gives the unit `direction`, for MIS: `pdf` is that of the light
@@ -53,6 +65,7 @@ private:
     ShadowTarget target;
     std::uint32_t lane;
     Spectrum light;
+    std::uint8_t layer; ///< of the light, where layers are asked for
   };
 
   // The stages of one light sample for each point, in their order.
@@ -61,8 +74,10 @@ private:
                      const ShadingPoints& points);
   static void set_directions(const VertexLanes& vertices, const LightSampleLanes& lights,
                              LightDirectionLanes& directions);
-  void weight_samples(const VertexLanes& vertices, const ShadingPoints& points, const PathSettings& settings);
+  void weight_samples(const RenderScene& scene, const VertexLanes& vertices, const ShadingPoints& points,
+                      const PathSettings& settings);
   void set_ray(ShadowRay& shadow) const;
+  static void add(ShadingPoints& points, const ShadowRay& shadow, Spectrum light);
   void look_up_radiance(const RenderScene& scene);
   void trace_shadow_rays(const RenderScene& scene, ShadingPoints& points, RayCounts& counts, StopPoll& stop);
 
@@ -83,8 +98,12 @@ public:
   Spectrum estimate(const RenderScene& scene, const Vertex& vertex, const Bsdf& bsdf, const Sampler& sampler,
                     const PathSettings& settings, RayCounts& counts, StopPoll& stop,
                     const MediumStack* media = nullptr);
+  /// From now on there are the parts of the newest estimate, as ShadingPoints::layered has them.
+  void keep_layers(bool keep) { points_.layered = keep ? &layered_ : nullptr; }
+  std::span<const LayeredLight> layered() const { return layered_; }
 
 private:
+  std::vector<LayeredLight> layered_;
   VertexLanes vertices_;
   ShadingPoints points_;
   DirectLight direct_light_;

@@ -10,8 +10,11 @@ PathTracer::PathTracer(const RenderScene& scene, const PathSettings& settings)
 /// With segments numbered by depth = 1, 2, ... the estimate is the sum over vertices of
 ///   throughput x (emission that BSDF sampling found, weighted + light from sampled lights, weighted).
 bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> results, RayCounts& counts,
-                       StopPoll& stop) {
+                       StopPoll& stop, std::span<PathSample> layers) {
   results_ = results;
+  layers_ = layers;
+  std::ranges::fill(layers_, PathSample{});
+  shading_points_.layered = layers_.empty() ? nullptr : &layered_light_;
   counts_ = {};
   paths_.clear();
   media_.clear();
@@ -162,24 +165,27 @@ void PathTracer::add_escaped(const Path& path, std::uint32_t light, Spectrum rad
   const float light_pdf = needs_light_pdf(path)
                               ? light_sampling_pdf(scene_, path.light_context, light, pdf, path.ray.direction)
                               : 0;
-  results_[path.result].add(path.throughput * radiance * bsdf_sampling_weight(path, light_pdf), depth);
+  const Spectrum light_found = path.throughput * radiance * bsdf_sampling_weight(path, light_pdf);
+  results_[path.result].add(light_found, depth);
+  if (!layers_.empty()) layer(path, scene_.layer_of_light(light)).add(light_found, depth);
 }
 
 void PathTracer::add_emitted(const Path& path, const SurfaceInteraction& surface, Spectrum emission,
                              int depth) {
-  float pdf = 0;
+  Spectrum light_found = path.throughput * emission;
   const std::uint32_t i = scene_.light_of(surface.emitter);
-  if (i == kNoLight) { // that no light sample finds, as curves
-    results_[path.result].add(path.throughput * emission, depth);
-    return;
+  if (i != kNoLight) { // else no light sample finds it, as curves
+    float pdf = 0;
+    if (needs_light_pdf(path)) {
+      pdf = light_sampling_pdf(
+          scene_, path.light_context, i,
+          light_pdf(scene_.lights()[i], path.light_context, surface.position, path.ray.direction),
+          path.ray.direction);
+    }
+    light_found *= bsdf_sampling_weight(path, pdf);
   }
-  if (needs_light_pdf(path)) {
-    pdf = light_sampling_pdf(
-        scene_, path.light_context, i,
-        light_pdf(scene_.lights()[i], path.light_context, surface.position, path.ray.direction),
-        path.ray.direction);
-  }
-  results_[path.result].add(path.throughput * emission * bsdf_sampling_weight(path, pdf), depth);
+  results_[path.result].add(light_found, depth);
+  if (!layers_.empty()) layer(path, scene_.layer_of_material(surface.material)).add(light_found, depth);
 }
 
 /// The surface vertices of the paths that arrived at hits_[begin ...].
@@ -245,6 +251,11 @@ void PathTracer::sample_lights(std::size_t begin, int depth, StopPoll& stop) {
   for (std::uint32_t i : std::span(shading_points_.lane.data(), shading_points_.count)) {
     const Path& path = *arrived_[begin + i];
     results_[path.result].add_light_sampled(path.throughput * shading_points_.light[i], depth + 1);
+  }
+  if (layers_.empty()) return;
+  for (const LayeredLight& part : layered_light_) {
+    const Path& path = *arrived_[begin + part.lane];
+    layer(path, part.layer).add(path.throughput * part.light, depth + 1);
   }
 }
 

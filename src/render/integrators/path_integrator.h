@@ -41,10 +41,11 @@ class PathTracer {
 public:
   PathTracer(const RenderScene& scene, const PathSettings& settings);
 
-  /// One sample of the radiance that arrives along each start's ray. `results` has as many. False, and
-  /// results of no use, where it was asked to stop, which it polls every few rays.
+  /// One sample of the radiance that arrives along each start's ray. `results` has as many. `layers`, if not
+  /// empty, has RenderScene::layer_count() for each of them, the same radiance by layer. False, and results
+  /// of no use, where it was asked to stop, which it polls every few rays.
   bool trace(std::span<const PathStart> starts, std::span<PathSample> results, RayCounts& counts,
-             StopPoll& stop);
+             StopPoll& stop, std::span<PathSample> layers = {});
 
 private:
   /// What the next vertex needs to know of those before.
@@ -111,6 +112,10 @@ private:
   MediumStack& media_of(const Path& path) { return media_[static_cast<std::size_t>(&path - paths_.data())]; }
   void add_escaped(const Path& path, std::uint32_t light, Spectrum radiance, float pdf, int depth);
   void add_emitted(const Path& path, const SurfaceInteraction& surface, Spectrum emission, int depth);
+  /// What a path adds to its sample's layer.
+  PathSample& layer(const Path& path, std::uint8_t index) {
+    return layers_[path.result * scene_.layer_count() + index];
+  }
   bool needs_light_pdf(const Path& path) const;
   float bsdf_sampling_weight(const Path& path, float light_pdf) const;
 
@@ -120,6 +125,7 @@ private:
 
   // Of the batch in flight.
   std::span<PathSample> results_;
+  std::span<PathSample> layers_; ///< of all results, one after the other; empty: not asked for
   RayCounts counts_;
   std::vector<Path> paths_, next_paths_;
   /// Of their rays, parallel to them; in scenes with media alone.
@@ -136,6 +142,7 @@ private:
   std::vector<ScatteringVertex> scattering_;
   BsdfFlags scattering_flags_ = BsdfFlags::none; ///< of all of them
   ShadingPoints shading_points_;
+  std::vector<LayeredLight> layered_light_; ///< of shading_points_
   DirectLight direct_light_;
   Lanes<SampledDirection> directions_; ///< one of each vertex, at most
   std::size_t direction_count_ = 0;

@@ -28,9 +28,12 @@ struct SpecularRay {
 class WhittedTracer {
 public:
   WhittedTracer(const RenderScene& scene, Sampler& sampler, const PathSettings& settings,
-                ScalarDirectLight& direct_light, RayCounts& counts, StopPoll& stop)
+                ScalarDirectLight& direct_light, RayCounts& counts, StopPoll& stop,
+                std::span<PathSample> layers)
       : scene_(scene), sampler_(sampler), settings_(settings), counts_(counts), stop_(stop),
-        last_depth_(longest_path(settings)), direct_light_(direct_light) {
+        last_depth_(longest_path(settings)), layers_(layers), direct_light_(direct_light) {
+    std::ranges::fill(layers_, PathSample{});
+    direct_light_.keep_layers(!layers_.empty());
     // BSDF sampling gives specular directions alone: light sampling has full weight.
     settings_.light_sampling = LightSampling::nee;
   }
@@ -64,8 +67,11 @@ private:
       const SurfaceMaterial& material = *vertex.material;
       bool outside = vertex.side > 0;
       auto texture_at = [&] { return texture_point(scene_, path.ray, hit, cone, material.asks_place); };
-      if (material.emissive && (outside || material.two_sided_emission) && shows_depth(settings_, depth))
-        sample_.add(path.throughput * emission_at(material, texture_at), depth);
+      if (material.emissive && (outside || material.two_sided_emission) && shows_depth(settings_, depth)) {
+        const Spectrum light = path.throughput * emission_at(material, texture_at);
+        sample_.add(light, depth);
+        if (!layers_.empty()) layers_[scene_.layer_of_material(vertex.surface.material)].add(light, depth);
+      }
       if (depth == last_depth_ || !vertex.scatters()) return;
       BlendArena blends;
       Bsdf bsdf =
@@ -76,6 +82,9 @@ private:
         Spectrum light =
             direct_light_.estimate(scene_, vertex, bsdf, sampler_, settings_, counts_, stop_, &path.media);
         sample_.add_light_sampled(path.throughput * light, depth + 1);
+        if (!layers_.empty())
+          for (const LayeredLight& part : direct_light_.layered())
+            layers_[part.layer].add(path.throughput * part.light, depth + 1);
       }
       if (!continue_specular(path, vertex, bsdf, depth)) return;
     }
@@ -142,8 +151,11 @@ private:
 
   void add_environment(const SpecularRay& path, int depth) {
     if (!shows_depth(settings_, depth)) return;
-    for (std::uint32_t i : scene_.infinite_lights())
-      sample_.add(path.throughput * light_radiance(scene_.lights()[i], path.ray.direction), depth);
+    for (std::uint32_t i : scene_.infinite_lights()) {
+      const Spectrum light = path.throughput * light_radiance(scene_.lights()[i], path.ray.direction);
+      sample_.add(light, depth);
+      if (!layers_.empty()) layers_[scene_.layer_of_light(i)].add(light, depth);
+    }
   }
 
   const RenderScene& scene_;
@@ -153,6 +165,7 @@ private:
   StopPoll& stop_;
   int last_depth_;
   PathSample sample_;
+  std::span<PathSample> layers_; ///< of the sample; empty: not asked for
   ScalarDirectLight& direct_light_;
 };
 
@@ -160,8 +173,8 @@ private:
 
 PathSample whitted_radiance(const RenderScene& scene, const PathStart& start, Sampler& sampler,
                             const PathSettings& settings, ScalarDirectLight& direct_light, RayCounts& counts,
-                            StopPoll& stop) {
-  return WhittedTracer(scene, sampler, settings, direct_light, counts, stop).trace(start);
+                            StopPoll& stop, std::span<PathSample> layers) {
+  return WhittedTracer(scene, sampler, settings, direct_light, counts, stop, layers).trace(start);
 }
 
 } // namespace candela

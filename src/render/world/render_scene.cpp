@@ -36,6 +36,7 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
   scene->has_media_ = !scene->materials_->media().empty();
   scene->lights_ = SceneLights::of(document, scene->geometry_, scene->materials_,
                                    previous != nullptr ? previous->lights_ : nullptr, progress);
+  scene->layer_count_ = scene->lights_->layers().count();
   return scene;
 }
 
@@ -88,13 +89,19 @@ void SceneMaterials::add_media(const std::vector<const Material*>& materials) {
   }
 }
 
-void SceneLights::add_emitter(std::uint64_t emitter, const SurfaceMaterial& material, Light light) {
+/// `layers[index]` is that of the light.
+void SceneLights::add_light(const Light& light, const std::vector<std::uint8_t>& layers, std::size_t index) {
+  lights_.push_back(light);
+  if (!layers_.empty()) layer_of_light_.push_back(layers[index]);
+}
+
+void SceneLights::add_emitter(std::uint64_t emitter, std::uint32_t material, Light light) {
   const auto index = static_cast<std::uint32_t>(lights_.size());
   light_of_emitter_.set(emitter, index);
-  lights_.push_back(light);
-  if (!has_textured_radiance(material)) return;
+  add_light(light, layers_.of_material, material);
+  if (!has_textured_radiance(materials_[material])) return;
   emitter_textures_.resize(index + 1);
-  emitter_textures_[index] = {emitter, &material};
+  emitter_textures_[index] = {emitter, &materials_[material]};
 }
 
 void SceneLights::add_emitters(const SceneLights* previous, const Progress* progress) {
@@ -110,7 +117,7 @@ void SceneLights::add_emitters(const SceneLights* previous, const Progress* prog
     auto add = [&](std::uint64_t number, std::uint32_t count, std::uint32_t material, auto make) {
       const SurfaceMaterial& m = materials_[material];
       const std::uint64_t emitter = first + number;
-      add_emitter(emitter, m, make(EmitterRadiance(m, table)));
+      add_emitter(emitter, material, make(EmitterRadiance(m, table)));
       for (std::uint32_t i = 1; i < count; ++i)
         light_of_emitter_.set(emitter + i, light_of_emitter_[emitter]);
     };
@@ -166,17 +173,16 @@ const SkyModel* SceneLights::sky(const SkyParameters& parameters, const SceneLig
   return skies_.emplace_back(KnownSky{parameters, made}).sky.get();
 }
 
-void SceneLights::add_lights(const std::vector<LightDesc>& lights, const SceneLights* previous,
-                             const Progress* progress) {
+void SceneLights::add_lights(const SceneLights* previous, const Progress* progress) {
   const LightResources resources{
       [&](const EnvironmentLightModel& m) { return environment_map(m, previous, progress); },
       [&](const SkyParameters& parameters) { return sky(parameters, previous, progress); }};
-  for (const LightDesc& desc : lights) {
-    if (is_black(desc.color * desc.scale)) continue;
-    for (const Light& light : make_lights(desc, resources)) {
+  for (std::size_t i = 0; i < source_.size(); ++i) {
+    if (is_black(source_[i].color * source_[i].scale)) continue;
+    for (const Light& light : make_lights(source_[i], resources)) {
       if (light_kind(light) == LightKind::infinite)
         infinite_lights_.push_back(static_cast<std::uint32_t>(lights_.size()));
-      lights_.push_back(light);
+      add_light(light, layers_.of_light, i);
     }
   }
 }

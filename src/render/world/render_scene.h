@@ -47,6 +47,14 @@ public:
   bool has_textured_lights() const { return lights_->has_textured_lights(); }
   /// Of that light; null where its radiance is the same everywhere.
   const EmitterTexture* emitter_texture(std::uint32_t light) const { return lights_->emitter_texture(light); }
+  /// Layers of a film that keeps light groups apart; 0: there are none.
+  std::size_t layer_count() const { return layer_count_; }
+  const LightLayers& light_layers() const { return lights_->layers(); }
+  /// The layer of a light, and of a material's emission; only where there are layers.
+  std::uint8_t layer_of_light(std::uint32_t light) const { return lights_->layer_of(light); }
+  std::uint8_t layer_of_material(std::uint32_t material) const {
+    return lights_->layers().of_material[material];
+  }
   const std::vector<std::uint32_t>& infinite_lights() const { return lights_->infinite_lights(); }
 
   /// Choice of a light as path.light_choice has it: among all, or among those that light sampling alone can
@@ -65,6 +73,7 @@ private:
   const SurfaceMaterial* surfaces_ = nullptr;
   bool has_transparency_ = false, has_invisible_ = false, has_priorities_ = false, has_media_ = false,
        filters_textures_ = false;
+  std::size_t layer_count_ = 0;
 };
 
 } // namespace candela

@@ -14,10 +14,20 @@ bool is_same(const TexturedParameter* a, const TexturedParameter* b) {
          a->lowest == b->lowest && a->highest == b->highest;
 }
 
-/// Whether `known` is what `grouped` makes of the scene. Groups that change nothing need no copies.
+/// Whether the factors of groups are part of the scene, rather than of the mix of the film's layers.
+bool has_factors(const SceneDesc& scene, const LightLayers& layers) {
+  return layers.empty() && has_scaled_groups(scene);
+}
+bool has_factors(const Document& document) {
+  return has_scaled_groups(document.scene) && light_layers(document).empty();
+}
+
+/// Whether `known` is what `grouped` makes of the scene, if `scaled`. Groups that change nothing need no
+/// copies.
 template <class Members, class Grouped>
-bool is_grouped(const Members& known, const SceneDesc& scene, const Members& own, Grouped grouped) {
-  return has_scaled_groups(scene) ? known == grouped(scene) : known == own;
+bool is_grouped(const Members& known, const SceneDesc& scene, bool scaled, const Members& own,
+                Grouped grouped) {
+  return scaled ? known == grouped(scene) : known == own;
 }
 
 } // namespace
@@ -31,8 +41,8 @@ bool emits_alike(const SurfaceMaterial& a, const SurfaceMaterial& b) {
 
 SceneMaterials::SceneMaterials(const Document& document, const SceneMaterials* previous,
                                const Progress* progress)
-    : source_(grouped_materials(document.scene)), textures_(document.scene.textures),
-      override_(document.settings.override_brdf) {
+    : source_(has_factors(document) ? grouped_materials(document.scene) : document.scene.materials),
+      textures_(document.scene.textures), override_(document.settings.override_brdf) {
   add_materials(document, [&](const ImageTexture& image, ColorSpace space) {
     auto fits = [&](const auto& pyramid) {
       return pyramid->texels() == image.texels && pyramid->color_space() == space;
@@ -54,7 +64,8 @@ std::shared_ptr<const SceneMaterials> SceneMaterials::of(const Document& documen
                                                          std::shared_ptr<const SceneMaterials> previous,
                                                          const Progress* progress) {
   if (previous != nullptr &&
-      is_grouped(previous->source_, document.scene, document.scene.materials, grouped_materials) &&
+      is_grouped(previous->source_, document.scene, has_factors(document), document.scene.materials,
+                 grouped_materials) &&
       previous->textures_ == document.scene.textures &&
       previous->override_ == document.settings.override_brdf)
     return previous;
@@ -78,9 +89,11 @@ SceneLights::SceneLights(const Document& document, std::shared_ptr<const Geometr
                          std::shared_ptr<const SceneMaterials> materials, const SceneLights* previous,
                          const Progress* progress)
     : geometry_(std::move(geometry)), kept_materials_(std::move(materials)), materials_(*kept_materials_),
-      source_(grouped_lights(document.scene)), light_choice_(document.settings.path.light_choice) {
+      layers_(light_layers(document)),
+      source_(has_factors(document.scene, layers_) ? grouped_lights(document.scene) : document.scene.lights),
+      light_choice_(document.settings.path.light_choice) {
   add_emitters(previous, progress);
-  add_lights(source_, previous, progress);
+  add_lights(previous, progress);
   add_selections(progress);
 }
 
@@ -89,8 +102,9 @@ std::shared_ptr<const SceneLights> SceneLights::of(const Document& document,
                                                    const std::shared_ptr<const SceneMaterials>& materials,
                                                    std::shared_ptr<const SceneLights> previous,
                                                    const Progress* progress) {
-  if (previous != nullptr && previous->geometry_ == geometry &&
-      is_grouped(previous->source_, document.scene, document.scene.lights, grouped_lights) &&
+  if (previous != nullptr && previous->geometry_ == geometry && previous->layers_ == light_layers(document) &&
+      is_grouped(previous->source_, document.scene, has_factors(document.scene, previous->layers_),
+                 document.scene.lights, grouped_lights) &&
       previous->light_choice_ == document.settings.path.light_choice &&
       std::ranges::equal(previous->materials_, *materials, emits_alike))
     return previous;
@@ -110,8 +124,9 @@ void SceneLights::add_selections(const Progress* progress) {
 }
 
 std::size_t SceneLights::memory_bytes() const {
-  std::size_t bytes = lights_.size() * sizeof(Light) + light_of_emitter_.memory_bytes() +
-                      all_lights_.memory_bytes() + delta_lights_.memory_bytes();
+  std::size_t bytes = lights_.size() * sizeof(Light) + layer_of_light_.size() +
+                      light_of_emitter_.memory_bytes() + all_lights_.memory_bytes() +
+                      delta_lights_.memory_bytes();
   for (const RectangleEmission& shown : emission_tables_)
     if (shown.table->grid) bytes += shown.table->grid->memory_bytes();
   for (const auto& map : environment_maps_) bytes += map->memory_bytes();

@@ -9,7 +9,7 @@
 #include "render/world/emitter_texture.h"
 #include "render/world/geometry.h"
 #include "render/world/surface_material.h"
-#include "scene/document.h"
+#include "scene/light_layers.h"
 
 namespace candela {
 
@@ -45,7 +45,7 @@ private:
   void add_media(const std::vector<const Material*>& materials);
 
   // Made of:
-  std::vector<Material> source_; ///< with the factors of their groups
+  std::vector<Material> source_; ///< with the factors of their groups where these are part of the scene
   std::vector<std::shared_ptr<const Texture>> textures_;
   OverrideSettings override_;
 
@@ -85,6 +85,9 @@ public:
                : nullptr;
   }
   const std::vector<std::uint32_t>& infinite_lights() const { return infinite_lights_; }
+  /// What a film keeps apart, and the layer of a light, where it keeps any.
+  const LightLayers& layers() const { return layers_; }
+  std::uint8_t layer_of(std::uint32_t light) const { return layer_of_light_[light]; }
   const LightSelection& all_lights() const { return all_lights_; }
   const LightSelection& delta_lights() const { return delta_lights_; }
   std::size_t memory_bytes() const;
@@ -105,9 +108,9 @@ private:
   void add_emitters(const SceneLights* previous, const Progress* progress);
   const EmissionTable& emission_table(const SurfaceMaterial& material, bool mirrored,
                                       const SceneLights* previous, const Progress* progress);
-  void add_emitter(std::uint64_t emitter, const SurfaceMaterial& material, Light light);
-  void add_lights(const std::vector<LightDesc>& lights, const SceneLights* previous,
-                  const Progress* progress);
+  void add_emitter(std::uint64_t emitter, std::uint32_t material, Light light);
+  void add_light(const Light& light, const std::vector<std::uint8_t>& layers, std::size_t index);
+  void add_lights(const SceneLights* previous, const Progress* progress);
   const EnvironmentMap* environment_map(const EnvironmentLightModel& light, const SceneLights* previous,
                                         const Progress* progress);
   const SkyModel* sky(const SkyParameters& parameters, const SceneLights* previous, const Progress* progress);
@@ -117,10 +120,12 @@ private:
   std::shared_ptr<const Geometry> geometry_;
   std::shared_ptr<const SceneMaterials> kept_materials_;
   const SceneMaterials& materials_; ///< *kept_materials_
-  std::vector<LightDesc> source_;   ///< the same; lights_ point to their files
+  LightLayers layers_;
+  std::vector<LightDesc> source_; ///< as SceneMaterials has it; lights_ point to their files
   LightChoiceBy light_choice_;
 
   std::vector<Light> lights_;
+  std::vector<std::uint8_t> layer_of_light_; ///< parallel to lights_ where there are layers
   EmitterLights light_of_emitter_;
   std::vector<EmitterTexture> emitter_textures_;   ///< by light; empty where none is textured
   std::vector<RectangleEmission> emission_tables_; ///< what lights_ point to

@@ -135,6 +135,30 @@ TEST_F(CliTest, WritesOtherViewsBesideTheOutput) {
   EXPECT_NE(o.err.find("geometric_normal"), std::string::npos) << o.err;
 }
 
+TEST_F(CliTest, WritesLightGroupsAsLayers) {
+  std::ofstream(path("groups.json")) << R"({"candela": 1,
+    "lights": [{"position": [0, 2, 0], "group": "key/1"}, {"position": [1, 2, 0], "group": "key.1"},
+               {"type": "constant", "color": 0.2}],
+    "light_groups": [{"name": "key/1", "on": false}],
+    "instances": [{"shape": "plane", "material": "m"}], "materials": [{"name": "m"}],
+    "camera": {"position": [0, 0, 3]}})";
+  const std::string render =
+      "render '" + path("groups.json") + "' --size 12x8 --spp 4 --quiet --aov light_groups ";
+  Outcome o = run(render + "-o a.png -o a.exr -o b.exr");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(read_image(path("a.light_groups.exr")).pixels, read_image(path("a.exr")).pixels);
+  EXPECT_TRUE(std::filesystem::exists(path("b.light_groups.exr")));
+  const std::string bytes = file_text(path("a.light_groups.exr"));
+  for (const char* name : {"Combined_key_1.R", "Combined_key_1-2.G", "Combined_ungrouped.B"})
+    EXPECT_NE(bytes.find(name), std::string::npos) << name;
+  EXPECT_NE(bytes.find("0 0 0"), std::string::npos) << "the factor of what is off";
+  o = run(render + "-o a.exr --set adaptive.error=0.1");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("adaptive"), std::string::npos) << o.err;
+  o = run("render '" + scene + "' --size 12x8 --spp 1 --quiet -o a.exr --aov light_groups");
+  EXPECT_EQ(o.code, 2) << "it has no groups";
+}
+
 TEST_F(CliTest, StopsAtANoiseLevel) {
   Outcome o = run("render " + scene + " --size 32x32 --noise 0.3 -o a.exr --stats s.json --quiet");
   ASSERT_EQ(o.code, 0) << o.err;

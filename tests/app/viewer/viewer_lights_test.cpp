@@ -86,17 +86,29 @@ TEST(ViewerLightsUi, GroupsAreNamedSwitchedAndScaled) {
     return sum;
   };
   const double whole = brightness();
+  const std::uint64_t restarts = hand.state().status.restarts;
+  auto same_samples = [&] {
+    return hand.state().status.restarts == restarts && hand.state().status.spp >= 1;
+  };
   hand.click("light_group.0.on");
   ASSERT_EQ(hand.document().scene.light_groups.size(), 1u);
   EXPECT_FALSE(hand.document().scene.light_groups[0].on);
   const double without = brightness();
   EXPECT_LT(without, whole);
+  EXPECT_TRUE(same_samples());
   EXPECT_GT(without, 0) << "the ceiling lamp is in no group";
   hand.click("light_group.0.on");
   EXPECT_EQ(brightness(), whole) << "the same samples again";
   hand.type_into("light_group.0.scale", "3");
   EXPECT_EQ(hand.document().scene.light_groups[0].scale, 3);
   EXPECT_GT(brightness(), whole);
+  hand.reveal("light_group.0.solo");
+  hand.frame(2);
+  hand.click("light_group.0.solo");
+  EXPECT_TRUE(hand.document().scene.light_groups[0].solo);
+  EXPECT_NEAR(brightness(), 3 * (whole - without), 1e-4 * whole) << "three times what it gives";
+  hand.click("light_group.0.solo");
+  EXPECT_TRUE(same_samples());
   hand.frame(3);
   hand.screenshot("light_groups");
   // A surface that shines may join.
@@ -108,8 +120,11 @@ TEST(ViewerLightsUi, GroupsAreNamedSwitchedAndScaled) {
   hand.type("lamp");
   hand.frame(2);
   EXPECT_EQ(hand.document().scene.materials[3].group, "lamp");
-  hand.click("light_group.1.on");
+  EXPECT_FALSE(same_samples()) << "another layer";
+  hand.reveal("light_group.0.on");
   hand.click("light_group.0.on");
+  hand.reveal("light_group.1.on");
+  hand.click("light_group.1.on");
   EXPECT_EQ(brightness(), 0) << "all are off";
 }
 

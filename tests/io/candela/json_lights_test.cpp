@@ -88,7 +88,7 @@ TEST(JsonLights, KeepGroups) {
   files.write("s.json", R"({"candela": 1,
       "materials": [{"emission": 3, "group": "street"}],
       "lights": [{"group": "street"}, {"type": "sky", "sun_by": "place", "month": 12, "group": "sky"}],
-      "light_groups": [{"name": "street", "on": false}, {"name": "sky", "scale": 0.5}]})");
+      "light_groups": [{"name": "street", "on": false}, {"name": "sky", "scale": 0.5, "color": [1, 0.5, 0], "solo": true}]})");
   LoadedScene loaded = files.read("s.json");
   const SceneDesc& scene = loaded.document.scene;
   EXPECT_EQ(scene.materials[0].group, "street");
@@ -96,6 +96,8 @@ TEST(JsonLights, KeepGroups) {
   ASSERT_EQ(scene.light_groups.size(), 2u);
   EXPECT_FALSE(scene.light_groups[0].on);
   EXPECT_EQ(scene.light_groups[1].scale, 0.5f);
+  EXPECT_EQ(scene.light_groups[1].color, vec3(1, 0.5f, 0));
+  EXPECT_TRUE(scene.light_groups[1].solo);
   write_candela_json(loaded.document, files / "copy.json");
   EXPECT_TRUE(same_content(files.read("copy.json").document, loaded.document));
 }

@@ -4,9 +4,11 @@
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <gtest/gtest.h>
 
@@ -106,6 +108,29 @@ TEST(ImageExr, ChannelsByName) {
     EXPECT_EQ(error.code(), ExitCode::bad_input);
     EXPECT_NE(std::string(error.what()).find("Z"), std::string::npos);
   }
+}
+
+TEST(ImageExr, WritesLayersBesideTheImage) {
+  ScratchFolder folder;
+  const std::string path = folder / "a.exr";
+  const Image image{2, 1, {vec3(1, 2, 3), vec3(4, 5, 6)}};
+  const Image key{2, 1, {vec3(0.1f, 0.2f, 0.3f), vec3(7)}}, fill{2, 1, {vec3(0.5f), vec3(0)}};
+  const std::string name = "Combined_a long name of a group, longer than 31 bytes";
+  write_exr_layers(image, std::vector<ImageLayer>{{name, key}, {"Combined_fill", fill}}, path,
+                   {{"candela.spp", "4"}});
+  EXPECT_EQ(read_image(path).pixels, image.pixels) << "that without a name";
+  Imf::InputFile file(path.c_str());
+  EXPECT_TRUE(file.header().findTypedAttribute<Imf::StringAttribute>("candela.spp"));
+  std::vector<float> red(2), blue(2);
+  Imf::FrameBuffer frame;
+  frame.insert(name + ".R", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(red.data()), 4, 8));
+  frame.insert("Combined_fill.B", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(blue.data()), 4, 8));
+  file.setFrameBuffer(frame);
+  file.readPixels(0);
+  EXPECT_EQ(red, (std::vector<float>{0.1f, 7}));
+  EXPECT_EQ(blue, (std::vector<float>{0.5f, 0}));
+  EXPECT_THROW(write_exr_layers(image, std::vector<ImageLayer>{{"small", Image{1, 1, {vec3(1)}}}}, path),
+               Error);
 }
 
 TEST(ImageExr, LuminanceAndChroma) {

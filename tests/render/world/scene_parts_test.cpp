@@ -94,6 +94,7 @@ TEST_F(SceneParts, AGroupsEditScalesItsLightsAlone) {
   EXPECT_EQ(kept([](Document& d) { d.scene.light_groups = {{"lamps"}}; }), kAll) << "as it was";
   auto scaled = [&](bool on, float scale) {
     Document edited = document_;
+    edited.settings.film.light_groups = LightGroupsIn::scene;
     edited.scene.light_groups = {{"lamps", on, scale}};
     return RenderScene::build(edited, scene_.get());
   };
@@ -114,6 +115,23 @@ TEST_F(SceneParts, AGroupsEditScalesItsLightsAlone) {
   const auto twice = scaled(true, 2);
   EXPECT_EQ(twice->material(static_cast<std::uint32_t>(emitting_material())).emission,
             2.0f * scene_->material(static_cast<std::uint32_t>(emitting_material())).emission);
+}
+
+TEST_F(SceneParts, AGroupsEditKeepsAllWhereTheFilmHasItsLayer) {
+  document_.scene.lights[0].group = "lamps";
+  scene_ = RenderScene::build(document_, scene_.get());
+  ASSERT_EQ(scene_->layer_count(), 2u);
+  EXPECT_EQ(kept([](Document& d) { d.scene.light_groups = {{"lamps", false, 3}}; }), kAll);
+  // Lights of one layer, in the order of the scene's: emitters first, a sky's are several.
+  for (std::uint32_t i = 0; i < scene_->lights().size(); ++i)
+    EXPECT_EQ(scene_->layer_of_light(i), std::holds_alternative<PointLight>(scene_->lights()[i]) ? 0 : 1);
+  EXPECT_EQ(kept([&](Document& d) { d.scene.materials[emitting_material()].group = "lamps"; }),
+            (Kept{true, false, false}));
+  document_.scene.materials[emitting_material()].group = "lamps";
+  scene_ = RenderScene::build(document_, scene_.get());
+  EXPECT_EQ(scene_->layer_of_material(static_cast<std::uint32_t>(emitting_material())), 0);
+  for (std::uint32_t i = 0; i < scene_->lights().size(); ++i)
+    EXPECT_EQ(scene_->layer_of_light(i) == 1, light_kind(scene_->lights()[i]) == LightKind::infinite);
 }
 
 TEST_F(SceneParts, AComputedSkyIsKeptUntilItsAirOrSunChanges) {
