@@ -233,6 +233,7 @@ public:
     unfold("group.adaptive", "adaptive.error");
     unfold("panel.objects", "list.objects");
     unfold("panel.materials", "material.type");
+    if (!find("texture.view") && !find("textures.none")) click("panel.textures");
     if (!find("light.type") && !find("emitter.emission.r")) click("panel.lights");
     unfold("panel.scenes", "scene.path");
   }

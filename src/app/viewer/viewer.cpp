@@ -40,7 +40,8 @@ Viewer::Viewer(const Gl& gl, ViewerOptions options)
     : gl_(gl), options_(std::move(options)), draw_(gl), viewport_(gl), other_viewport_(gl),
       difference_viewport_(gl), session_(make_session(options_)),
       compare_({options_.threads, options_.wake, options_.screenshot_folder}), watch_(options_.wake),
-      reader_(options_.wake), writer_(options_.wake), inspector_(gl, options_.wake), lab_(options_.wake) {
+      reader_(options_.wake), writer_(options_.wake), inspector_(gl, options_.wake), lab_(options_.wake),
+      texture_viewer_(gl, options_.wake) {
   imgui_ = ImGui::CreateContext();
   ImGui::SetCurrentContext(imgui_);
   ImGuiIO& io = ImGui::GetIO();

@@ -22,6 +22,7 @@
 #include "app/viewer/file_watch.h"
 #include "app/viewer/inspector.h"
 #include "app/viewer/preferences.h"
+#include "app/viewer/texture_viewer.h"
 #include "io/scene_reader.h"
 
 #include <deque>
@@ -88,6 +89,7 @@ public:
   PixelRect picture_rect() const;
   const Viewport& viewport() const { return viewport_; }
   const LabPanel& lab() const { return lab_; }
+  const TextureViewer& texture_viewer() const { return texture_viewer_; }
   /// The layout of A and B during a comparison.
   ComparePanes compare_panes() const;
   const CompareMode& comparison() const { return compare_; }
@@ -300,6 +302,7 @@ private:
   TaskThread writer_;
   Inspector inspector_;
   LabPanel lab_;
+  TextureViewer texture_viewer_;
 };
 
 } // namespace candela

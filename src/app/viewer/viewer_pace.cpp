@@ -50,7 +50,8 @@ void Viewer::shown(WindowFrame frame) {
 bool Viewer::wants_redraw() const {
   return !events_.empty() || redraws_ > 0 || owes_drawing_ || fly_command().any() ||
          reader_.has_completions() || writer_.has_completions() || watch_.has_change() ||
-         inspector_.wants_redraw() || lab_.has_news() || session_->display() != viewport_.shown() ||
+         inspector_.wants_redraw() || lab_.has_news() || texture_viewer_.has_news() ||
+         session_->display() != viewport_.shown() ||
          session_->status().phase != drawn_phase_ || comparison_wants_redraw();
 }
 
@@ -85,7 +86,7 @@ double Viewer::next_frame() const {
   const bool coarse = state_.picture && state_.picture->frame->spp < 1;
   if (owes_drawing_)
     due = std::min(due, owed_since_ + kWaitingInterval);
-  else if (coarse || redraws_ > 0 || meter_.waiting())
+  else if (coarse || redraws_ > 0 || meter_.waiting() || texture_viewer_.has_news())
     due = std::min(due, drawn_at_ + (meter_.waiting() ? kWaitingInterval : kPictureInterval));
   return due;
 }
