@@ -8,6 +8,7 @@
 #include "app/tools/orbit_camera.h"
 #include "app/tools/selection.h"
 #include "app/tools/texture_view_state.h"
+#include "app/tools/thumbnail_state.h"
 #include "app/tools/transform_parts.h"
 #include "core/bounds.h"
 #include "session/render_session.h"
@@ -47,6 +48,7 @@ struct ViewerState {
   bool help_visible = false;
   bool lab_visible = false;
   TextureViewState texture_view; ///< over the picture
+  ThumbnailState thumbnails;
   /// The lab comes to the front of a texture.
   void toggle_lab() {
     lab_visible = texture_view.visible || !lab_visible;
