@@ -64,7 +64,7 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
   const auto start = Clock::now();
   Progress building(stop);
   OfflineResult result;
-  result.scene = RenderScene::build(document, nullptr, &building);
+  result.scene = RenderScene::build(document, options.previous.get(), &building);
   result.build_seconds = seconds_since(start);
   result.scene_bytes = result.scene->memory_bytes();
   result.display_scale = display_scale(*result.scene, document.settings);

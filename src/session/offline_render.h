@@ -19,6 +19,8 @@ struct OfflineProgress {
 struct OfflineOptions {
   PassOptions pass;
   bool components = false; ///< also store the emitted, direct and indirect components separately
+  /// A scene of before, whose geometry and lights are reused where the document has the same; may be null.
+  std::shared_ptr<const RenderScene> previous = nullptr;
   /// Ends the render early: throws Cancelled while the scene is built; later the film keeps its samples.
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const OfflineProgress&)> progress; ///< called after each pass

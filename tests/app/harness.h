@@ -233,6 +233,7 @@ public:
     unfold("group.adaptive", "adaptive.error");
     unfold("panel.objects", "list.objects");
     unfold("panel.materials", "material.type");
+    if (!find("texture.view") && !find("textures.none")) click("panel.textures");
     if (!find("light.type") && !find("emitter.emission.r")) click("panel.lights");
     unfold("panel.scenes", "scene.path");
   }
@@ -268,6 +269,7 @@ private:
     out.screenshot_folder = options.screenshot_folder;
     out.threads = 2;
     out.on_build = options.on_build;
+    out.thumbnails = {1, 4, 10, 0}; // few samples: the tests are not to wait
     out.scene_path = options.scene_path;
     std::string warning;
     out.preferences_path = options.preferences;

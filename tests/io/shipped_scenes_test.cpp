@@ -31,7 +31,7 @@ TEST(ShippedScenes, AreReadWithoutWarningsAndRoundTrip) {
     write_candela_json(loaded.document, files / "copy.json");
     EXPECT_TRUE(same_content(files.read("copy.json", {true}).document, loaded.document));
   }
-  EXPECT_GE(count, 18);
+  EXPECT_GE(count, 25);
 }
 
 const Instance& named(const LoadedScene& scene, const std::string& name) {
@@ -52,6 +52,37 @@ TEST(ShippedScenes, TheCornellBoxIsTheMeasuredOne) {
       EXPECT_GT(glm::dot(normal, vec3(278, 274, 280) - a), 0) << name << " faces inwards";
     }
   }
+}
+
+TEST(ShippedScenes, TheStudioShowsOneMaterial) {
+  const LoadedScene studio = read_scene(shipped("studio.json"));
+  const SceneDesc& scene = studio.document.scene;
+  const auto place = std::ranges::find(scene.materials, "material", &Material::name);
+  ASSERT_NE(place, scene.materials.end());
+  const int material = static_cast<int>(place - scene.materials.begin());
+  for (const Instance& instance : scene.instances) {
+    const bool shown = instance.name == "ball" || instance.name == "ring" || instance.name == "tile";
+    EXPECT_EQ(instance.materials[0] == material, shown) << instance.name;
+  }
+  // Greys alone, so that colours are the material's.
+  for (const Material& m : scene.materials) {
+    if (m.name == "material") continue;
+    EXPECT_EQ(m.emission.value.x, m.emission.value.y) << m.name;
+    EXPECT_EQ(m.emission.value.x, m.emission.value.z) << m.name;
+  }
+  // The ball touches the ring, whose tube is inside of neither.
+  const vec3 ball = transform_point(named(studio, "ball").world_from_object, vec3(0));
+  const vec3 ring = transform_point(named(studio, "ring").world_from_object, vec3(0));
+  const auto& torus = std::get<TorusShape>(named(studio, "ring").shape);
+  EXPECT_NEAR(glm::length(vec2(torus.radius, ball.y - ring.y)), 1 + torus.minor_radius, 1e-3f);
+  // The sweep is smooth where it bends: normals are those of its profile.
+  const Mesh& sweep = *std::get<std::shared_ptr<const Mesh>>(named(studio, "sweep").shape);
+  for (const uvec3& t : sweep.triangles) {
+    const vec3 a = sweep.positions[t.x];
+    const vec3 flat = glm::normalize(glm::cross(sweep.positions[t.y] - a, sweep.positions[t.z] - a));
+    for (int k = 0; k < 3; ++k) EXPECT_GT(glm::dot(flat, sweep.normals[t[k]]), 0.995f);
+  }
+  EXPECT_EQ(std::ranges::count(scene.bookmarks, "ball", &Bookmark::name), 1) << "of the thumbnails";
 }
 
 TEST(ShippedScenes, TheFlushLightFillsItsHole) {

@@ -8,6 +8,18 @@
 
 namespace candela {
 
+void draw_material_thumbnail(ViewerState& state, std::size_t material, vec2 lo, vec2 hi) {
+  ThumbnailState& thumbnails = state.thumbnails;
+  thumbnails.drawn.insert(material);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const unsigned texture = material < thumbnails.textures.size() ? thumbnails.textures[material] : 0;
+  if (texture == 0)
+    list.AddRect({lo.x, lo.y}, {hi.x, hi.y}, ImGui::GetColorU32(ImGuiCol_Border));
+  else
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), {lo.x, lo.y},
+                  {hi.x, hi.y});
+}
+
 void material_part_field(Ui& ui, ViewerState& state, std::size_t material, const MaterialField& row) {
   auto& materials = state.document.scene.materials;
   int& part = *static_cast<int*>(row.address(materials[material]));
@@ -22,7 +34,10 @@ void material_part_field(Ui& ui, ViewerState& state, std::size_t material, const
   const std::vector<std::string_view> choices(names.begin(), names.end());
   auto chosen = static_cast<int>(std::ranges::find(indices, part) - indices.begin());
   const std::string name = fmt::format("material.{}", row.key), label = field_label(row);
-  if (!ui.choice(name.c_str(), label.c_str(), chosen, choices, field_tooltip(row, nullptr))) return;
+  auto picture = [&](std::size_t i, vec2 lo, vec2 hi) {
+    if (indices[i] >= 0) draw_material_thumbnail(state, static_cast<std::size_t>(indices[i]), lo, hi);
+  };
+  if (!ui.choice(name.c_str(), label.c_str(), chosen, choices, field_tooltip(row, nullptr), picture)) return;
   const int before = std::exchange(part, indices[static_cast<std::size_t>(chosen)]);
   if (const auto problem = parts_problem(materials)) {
     part = before;

@@ -111,7 +111,7 @@ void panel_column(Ui& ui, ViewerState& state, vec2 position, vec2 size) {
     for (DrawPanel draw : kPanels) draw(ui, state);
     if (ui.button("lab.open", "Monte Carlo lab",
                   "Lessons on samplers, densities and materials, over the picture (F2)"))
-      state.lab_visible = !state.lab_visible;
+      state.toggle_lab();
     state.reveal_selection = false;
   }
   ImGui::End();

@@ -1,5 +1,6 @@
 // The panel of the scene's objects.
 
+#include "app/panels/material_picker.h"
 #include "app/panels/panel_list.h"
 #include "app/tools/transform_parts.h"
 #include "app/ui/item_list.h"
@@ -95,11 +96,13 @@ void material_choices(Ui& ui, ViewerState& state, Instance& instance) {
     names.push_back(name_or_number(materials[i].name, "Material", i));
   const std::vector<std::string_view> choices(names.begin(), names.end());
   const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape);
+  auto picture = [&](std::size_t i, vec2 lo, vec2 hi) { draw_material_thumbnail(state, i, lo, hi); };
   for (std::size_t slot = 0; slot < instance.materials.size(); ++slot) {
     const bool single = instance.materials.size() == 1;
     const std::string label = single ? "material" : name_or_number((*mesh)->slot_names[slot], "slot", slot);
     if (!ui.choice(fmt::format("object.material.{}", slot).c_str(), label.c_str(), instance.materials[slot],
-                   choices, "The object's material.\nRebuilds the geometry, then restarts the image."))
+                   choices, "The object's material.\nRebuilds the geometry, then restarts the image.",
+                   picture))
       continue;
     state.edited = true;
     state.selected_material = instance.materials[slot];

@@ -1,5 +1,6 @@
 // The panels of materials and scenes.
 
+#include "app/panels/material_picker.h"
 #include "app/panels/panel_list.h"
 #include "app/panels/texture_picker.h"
 #include "app/ui/item_list.h"
@@ -40,6 +41,19 @@ void material_type_of(Ui& ui, ViewerState& state, std::size_t index) {
   state.edited = true;
 }
 
+/// The selected material's, in its full size, with its name.
+void selected_thumbnail(Ui& ui, ViewerState& state, std::size_t index) {
+  const float side = std::round(64 * ui.scale());
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::Dummy(ImVec2(side, side));
+  ui.record("material.thumbnail");
+  if (ImGui::IsItemVisible())
+    draw_material_thumbnail(state, index, vec2(at.x, at.y), vec2(at.x + side, at.y + side));
+  ImGui::SameLine();
+  ImGui::TextUnformatted(
+      name_or_number(state.document.scene.materials[index].name, "Material", index).c_str());
+}
+
 } // namespace
 
 void materials_panel(Ui& ui, ViewerState& state) {
@@ -50,15 +64,18 @@ void materials_panel(Ui& ui, ViewerState& state) {
     return;
   }
   state.selected_material = std::clamp(state.selected_material, 0, static_cast<int>(materials.size()) - 1);
-  item_list(ui, "list.materials", materials.size(), state.reveal_selection ? state.selected_material : -1,
-            [&](std::size_t i) {
-              if (ui.item(fmt::format("materials/{}", i),
-                          name_or_number(materials[i].name, "Material", i).c_str(),
-                          static_cast<int>(i) == state.selected_material))
-                state.selected_material = static_cast<int>(i);
-            });
+  auto picture = [&](std::size_t i, vec2 lo, vec2 hi) { draw_material_thumbnail(state, i, lo, hi); };
+  item_list(
+      ui, "list.materials", materials.size(), state.reveal_selection ? state.selected_material : -1,
+      [&](std::size_t i) {
+        if (ui.item(fmt::format("materials/{}", i), name_or_number(materials[i].name, "Material", i).c_str(),
+                    static_cast<int>(i) == state.selected_material, i, picture))
+          state.selected_material = static_cast<int>(i);
+      },
+      ui.picture_side());
   const auto index = static_cast<std::size_t>(state.selected_material);
   Material& material = materials[index];
+  selected_thumbnail(ui, state, index);
   ImGui::PushID(state.selected_material); // so that an unfinished entry belongs to one material
   material_type_of(ui, state, index);
   for (const MaterialField& row : material_fields(material)) {

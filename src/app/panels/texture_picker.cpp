@@ -1,6 +1,7 @@
 #include "app/panels/texture_picker.h"
 
 #include "app/panels/material_picker.h"
+#include "app/tools/texture_users.h"
 #include "core/color.h"
 
 #include <fmt/format.h>
@@ -36,11 +37,6 @@ void draw_thumbnail(const Texture& texture, ImVec2 lo, ImVec2 hi) {
     }
 }
 
-std::string texture_label(const SceneDesc& scene, int index) {
-  const std::string& name = scene.textures[static_cast<std::size_t>(index)]->name;
-  return name.empty() ? fmt::format("Texture {}", index) : name;
-}
-
 void set_constant(const ParameterRef& parameter) {
   parameter.use() = parameter.standard_use();
   if (parameter.number != nullptr)
@@ -57,9 +53,14 @@ int add_texture(SceneDesc& scene, std::string_view kind) {
 }
 
 /// The list; true if another texture, or none, was chosen.
-bool choose_texture(Ui& ui, ViewerState& state, const std::string& name, const ParameterRef& parameter) {
+bool choose_texture(Ui& ui, ViewerState& state, const std::string& name, const TextureTarget& target,
+                    const ParameterRef& parameter) {
   SceneDesc& scene = state.document.scene;
   const int before = parameter.use().texture;
+  if (before >= 0) {
+    if (ui.item(name + "/view", "View", false)) state.texture_view.show(before, target);
+    ImGui::Separator();
+  }
   if (ui.item(name + "/none", "none", before < 0)) {
     set_constant(parameter);
     return before >= 0;
@@ -77,7 +78,8 @@ bool choose_texture(Ui& ui, ViewerState& state, const std::string& name, const P
   return chosen != before;
 }
 
-void thumbnail(Ui& ui, ViewerState& state, const std::string& name, const ParameterRef& parameter) {
+void thumbnail(Ui& ui, ViewerState& state, const std::string& name, const TextureTarget& target,
+               const ParameterRef& parameter) {
   const float side = ImGui::GetFrameHeight();
   const ImVec2 lo = ImGui::GetCursorScreenPos(), hi(lo.x + side, lo.y + side);
   if (ImGui::InvisibleButton(name.c_str(), ImVec2(side, side))) ImGui::OpenPopup(name.c_str());
@@ -95,14 +97,17 @@ void thumbnail(Ui& ui, ViewerState& state, const std::string& name, const Parame
       ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_ButtonHovered : ImGuiCol_TextDisabled);
   ImGui::GetWindowDrawList()->AddRect(lo, hi, border);
   if (ImGui::BeginPopup(name.c_str())) {
-    state.edited |= choose_texture(ui, state, name, parameter);
+    state.edited |= choose_texture(ui, state, name, target, parameter);
     ImGui::EndPopup();
   }
 }
 
 /// How the texture is used, and the values of a procedural one.
-void texture_fields(Ui& ui, ViewerState& state, const std::string& name, const ParameterRef& parameter) {
+void texture_fields(Ui& ui, ViewerState& state, const std::string& name, const TextureTarget& target,
+                    const ParameterRef& parameter) {
   TextureUse& use = parameter.use();
+  if (ui.button((name + ".view").c_str(), "View", "Shows it over the picture"))
+    state.texture_view.show(use.texture, target);
   TextureUse standard = parameter.standard_use();
   for (const auto& row : texture_use_fields()) {
     FieldContext context;
@@ -155,6 +160,7 @@ void material_field(Ui& ui, ViewerState& state, std::size_t index, const Materia
     return;
   }
   const ParameterRef parameter = row.parameter(material);
+  const TextureTarget target{index, std::string(row.key)};
   const std::string texture = name + std::string(kSuffix);
   if (ImGui::BeginTable(texture.c_str(), 2, ImGuiTableFlags_NoPadOuterX)) {
     ImGui::TableSetupColumn("field", ImGuiTableColumnFlags_WidthStretch);
@@ -162,12 +168,13 @@ void material_field(Ui& ui, ViewerState& state, std::size_t index, const Materia
     ImGui::TableNextColumn();
     state.edited |= ui.field(name, row, parameter.value(), context);
     ImGui::TableNextColumn();
-    thumbnail(ui, state, texture, parameter);
+    thumbnail(ui, state, texture, target, parameter);
     ImGui::EndTable();
   }
   if (parameter.use().texture < 0) return;
   const std::string fold = texture + "_use", label = fmt::format("Texture of {}", row.key);
-  if (ui.subsection(fold.c_str(), label.c_str(), false)) texture_fields(ui, state, texture, parameter);
+  if (ui.subsection(fold.c_str(), label.c_str(), false))
+    texture_fields(ui, state, texture, target, parameter);
 }
 
 std::string parameter_at(std::span<const WidgetRecord> widgets, vec2 point) {

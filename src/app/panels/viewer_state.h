@@ -7,6 +7,8 @@
 #include "app/tools/interaction_meter.h"
 #include "app/tools/orbit_camera.h"
 #include "app/tools/selection.h"
+#include "app/tools/texture_view_state.h"
+#include "app/tools/thumbnail_state.h"
 #include "app/tools/transform_parts.h"
 #include "core/bounds.h"
 #include "session/render_session.h"
@@ -31,12 +33,6 @@ enum class Question { none, quit, reload, replace };
 /// The subject of an error, which is cleared when the action succeeds, is retried or is cancelled.
 enum class ErrorCause { none, open, save, picture, camera, material, render, preferences };
 
-/// The parameter that gets a dropped or opened texture.
-struct TextureTarget {
-  std::size_t material = 0; ///< index into SceneDesc::materials
-  std::string key;
-};
-
 struct ViewerState {
   Document document;   ///< the edited document
   Document home;       ///< as loaded: camera, materials and lights are reset to it
@@ -51,6 +47,13 @@ struct ViewerState {
   bool panels_visible = true;
   bool help_visible = false;
   bool lab_visible = false;
+  TextureViewState texture_view; ///< over the picture
+  ThumbnailState thumbnails;
+  /// The lab comes to the front of a texture.
+  void toggle_lab() {
+    lab_visible = texture_view.visible || !lab_visible;
+    texture_view.visible = false;
+  }
   float scale = 1; ///< of the user interface; 1 is 96 dots an inch
 
   SessionStatus status;
@@ -82,6 +85,7 @@ struct ViewerState {
   std::string path_input;
   std::string panorama_input;
   int selected_material = 0;
+  int selected_texture = 0;
   int selected_light = 0; ///< lights first, then emissive materials
 
   Selection selection;

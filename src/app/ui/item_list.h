@@ -17,12 +17,14 @@ inline std::string name_or_number(const std::string& name, std::string_view kind
   return name.empty() ? fmt::format("{} {}", kind, index) : name;
 }
 
-/// `row(i)` draws row i. Scrolls to `reveal` unless it is negative.
+/// `row(i)` draws row i, which is `height` high (0: a line of text). Scrolls to `reveal` unless it is
+/// negative.
 template <class Row>
-void item_list(Ui& ui, const char* name, std::size_t count, int reveal, Row row) {
+void item_list(Ui& ui, const char* name, std::size_t count, int reveal, Row row, float height = 0) {
   constexpr std::size_t kRows = 6;
   const auto rows = static_cast<float>(std::clamp<std::size_t>(count, 1, kRows));
-  const float line = ImGui::GetTextLineHeightWithSpacing();
+  const float line =
+      height > 0 ? height + ImGui::GetStyle().ItemSpacing.y : ImGui::GetTextLineHeightWithSpacing();
   const std::string id = fmt::format("##{}", name);
   if (!ImGui::BeginListBox(id.c_str(), ImVec2(-1, rows * line + 2 * ImGui::GetStyle().FramePadding.y))) {
     ui.record(name); // scrolled away

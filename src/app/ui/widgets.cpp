@@ -119,11 +119,29 @@ bool Ui::item(const std::string& name, const char* label, bool selected) {
   return pressed;
 }
 
+float Ui::picture_side() const { return std::round(34 * scale_); }
+
+bool Ui::item(const std::string& name, const char* label, bool selected, std::size_t i,
+              const ItemPicture& picture) {
+  const float side = picture_side();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::PushStyleColor(ImGuiCol_Header, ImVec4(0.34f, 0.34f, 0.34f, 1));
+  const bool pressed = ImGui::Selectable(fmt::format("##{}", name).c_str(), selected, 0, ImVec2(0, side));
+  ImGui::PopStyleColor();
+  record(name);
+  if (!ImGui::IsItemVisible()) return pressed;
+  picture(i, to_vec2(at), to_vec2(at) + side);
+  ImGui::GetWindowDrawList()->AddText(
+      ImVec2(at.x + side + 8 * scale_, at.y + 0.5f * (side - ImGui::GetTextLineHeight())),
+      ImGui::GetColorU32(ImGuiCol_Text), label);
+  return pressed;
+}
+
 bool Ui::choice(const char* name, const char* label, int& value, std::span<const std::string_view> choices,
-                std::string_view tip) {
+                std::string_view tip, const ItemPicture& picture) {
   label_cell(name, label, false);
   tooltip(tip);
-  const bool changed = choice_widget(name, value, choices);
+  const bool changed = choice_widget(name, value, choices, picture);
   tooltip(tip);
   return changed;
 }
@@ -197,7 +215,8 @@ bool Ui::double_clicked_here() const {
   return ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
 }
 
-bool Ui::choice_widget(const std::string& name, int& value, std::span<const std::string_view> choices) {
+bool Ui::choice_widget(const std::string& name, int& value, std::span<const std::string_view> choices,
+                       const ItemPicture& picture) {
   ImGui::SameLine(kLabelWidth * scale_ + ImGui::GetStyle().WindowPadding.x);
   ImGui::SetNextItemWidth(-1);
   bool changed = false;
@@ -211,8 +230,10 @@ bool Ui::choice_widget(const std::string& name, int& value, std::span<const std:
   }
   for (std::size_t i = 0; i < choices.size(); ++i) {
     const bool selected = value == static_cast<int>(i);
-    if (item(fmt::format("{}/{}", name, choices[i]), std::string(choices[i]).c_str(), selected) && !selected)
-      value = static_cast<int>(i), changed = true;
+    const std::string id = fmt::format("{}/{}", name, choices[i]), text(choices[i]);
+    const bool pressed =
+        picture ? item(id, text.c_str(), selected, i, picture) : item(id, text.c_str(), selected);
+    if (pressed && !selected) value = static_cast<int>(i), changed = true;
   }
   ImGui::EndCombo();
   record(name);

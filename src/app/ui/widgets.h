@@ -4,6 +4,7 @@
 
 #include "core/fields.h"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -46,8 +47,15 @@ public:
   bool subsection(const char* name, const char* label, bool open_at_first);
   bool button(const char* name, const char* label, std::string_view tooltip = {}, float width = 0);
   bool item(const std::string& name, const char* label, bool selected);
+  /// Draws the picture of a list's item i into a square (framebuffer pixels). Called of visible items only.
+  using ItemPicture = std::function<void(std::size_t i, vec2 lo, vec2 hi)>;
+  /// Side of the square.
+  float picture_side() const;
+  bool item(const std::string& name, const char* label, bool selected, std::size_t i,
+            const ItemPicture& picture);
+  /// With pictures if there is such a function.
   bool choice(const char* name, const char* label, int& value, std::span<const std::string_view> choices,
-              std::string_view tooltip);
+              std::string_view tooltip, const ItemPicture& picture = {});
   bool number(const char* name, const char* label, float& value, float lo, float hi, const char* format,
               float initial, std::string_view tooltip);
   /// A text field; true when Enter was pressed in it.
@@ -105,7 +113,8 @@ private:
   bool color_swatch(const std::string& name, vec3& linear);
   bool color_picker(const std::string& name, vec3& encoded);
   bool color_code(const std::string& name, vec3& encoded);
-  bool choice_widget(const std::string& name, int& value, std::span<const std::string_view> choices);
+  bool choice_widget(const std::string& name, int& value, std::span<const std::string_view> choices,
+                     const ItemPicture& picture = {});
   static NumberStyle style_of(const FieldInfo& row, double value, const FieldContext& context);
 
   float scale_ = 1;

@@ -40,7 +40,9 @@ Viewer::Viewer(const Gl& gl, ViewerOptions options)
     : gl_(gl), options_(std::move(options)), draw_(gl), viewport_(gl), other_viewport_(gl),
       difference_viewport_(gl), session_(make_session(options_)),
       compare_({options_.threads, options_.wake, options_.screenshot_folder}), watch_(options_.wake),
-      reader_(options_.wake), writer_(options_.wake), inspector_(gl, options_.wake), lab_(options_.wake) {
+      reader_(options_.wake), writer_(options_.wake), inspector_(gl, options_.wake), lab_(options_.wake),
+      texture_viewer_(gl, options_.wake),
+      thumbnails_(gl, find_data_file_if_any("scenes/studio.json"), options_.thumbnails, options_.wake) {
   imgui_ = ImGui::CreateContext();
   ImGui::SetCurrentContext(imgui_);
   ImGuiIO& io = ImGui::GetIO();
@@ -128,7 +130,9 @@ bool Viewer::frame(double now, bool may_wait) {
                     io.WantCaptureMouse ? std::nullopt : std::optional(vec2(io.MousePos.x, io.MousePos.y)));
   state_.selection = checked_selection(state_.document.scene, state_.selection);
   state_.selection_middle = selection_box_.middle(state_.document.scene, state_.selection);
+  thumbnails_.begin_frame(state_);
   draw_ui();
+  thumbnails_.end_frame(state_, !user_waits());
   if (std::string refusal = ui_.take_refusal(); !refusal.empty()) notify(std::move(refusal));
   draw_overlay();
   typing_ = io.WantTextInput || imgui_->WantTextInputNextFrame > 0;

@@ -21,7 +21,9 @@
 #include "app/viewer/dropped_files.h"
 #include "app/viewer/file_watch.h"
 #include "app/viewer/inspector.h"
+#include "app/viewer/material_thumbnails.h"
 #include "app/viewer/preferences.h"
+#include "app/viewer/texture_viewer.h"
 #include "io/scene_reader.h"
 
 #include <deque>
@@ -42,6 +44,7 @@ struct ViewerOptions {
   bool fit_film = true;                          ///< the film follows the window; else the document's size
   int threads = 0;                               ///< for rendering; 0: every core
   std::filesystem::path screenshot_folder = "."; ///< where P saves
+  ThumbnailOptions thumbnails;
   Preferences preferences;
   std::filesystem::path preferences_path; ///< where they are stored; empty: nowhere
   std::function<void()> wake; ///< called from any thread when there is something new to draw; may be empty
@@ -88,6 +91,8 @@ public:
   PixelRect picture_rect() const;
   const Viewport& viewport() const { return viewport_; }
   const LabPanel& lab() const { return lab_; }
+  const MaterialThumbnails& thumbnails() const { return thumbnails_; }
+  const TextureViewer& texture_viewer() const { return texture_viewer_; }
   /// The layout of A and B during a comparison.
   ComparePanes compare_panes() const;
   const CompareMode& comparison() const { return compare_; }
@@ -206,6 +211,7 @@ private:
   // viewer_pace.cpp
   static constexpr double kHintSeconds = 10;
   bool awaited_picture_is_there() const;
+  bool user_waits() const;
   bool puts_off_drawing(bool restarted);
   void read_meter();
   /// Seconds between pictures that only add samples.
@@ -300,6 +306,8 @@ private:
   TaskThread writer_;
   Inspector inspector_;
   LabPanel lab_;
+  TextureViewer texture_viewer_;
+  MaterialThumbnails thumbnails_;
 };
 
 } // namespace candela

@@ -194,11 +194,12 @@ void Viewer::finish_opening(const Dropped& chosen, LoadedScene& loaded, const Bo
 
 void Viewer::install_scene(Document document, std::string path, std::vector<std::string> warnings,
                            const Bounds3& bounds, FileStamps files) {
+  if (path != state_.scene_path) state_.texture_view.visible = false; // else it shows the changed file
   auto scene = std::make_shared<OpenScene>(
       OpenScene{std::move(path), document, document, bounds, std::move(warnings), std::move(files)});
   const FileStamps read = scene->files;
   show_state({std::move(document), state_.fit_film, std::move(scene)}, read);
-  state_.selected_material = state_.selected_light = 0;
+  state_.selected_material = state_.selected_texture = state_.selected_light = 0;
   state_.selection = {};
   state_.error.clear();
   state_.question = Question::none;

@@ -123,19 +123,24 @@ void Viewer::draw_ui() {
     panel_column(ui_, state_, vec2(free_size.x, tools), vec2(width, free_size.y - tools));
     status_line(ui_, state_, vec2(0, free_size.y), vec2(window.x, window.y - free_size.y));
   }
-  if (state_.compare.active)
+  const bool covered = state_.texture_view.visible; // the picture, by a texture
+  if (state_.compare.active && !covered)
     compare_overlay(ui_, state_.compare, compare_panes(), compare_.difference() != nullptr);
   // Overlays begin where neither the lab nor a message covers the picture.
   const vec2 clear(state_.lab_visible ? LabPanel::width(state_.scale, free_size.x) : 0, state_.strips_bottom);
-  inspector_.draw(ui_, state_, picture_rect(), free, clear, now_);
-  picture_label(ui_, state_, clear);
-  lab_.draw(ui_, state_.lab_visible, vec2(0), free_size);
+  if (!covered) {
+    inspector_.draw(ui_, state_, picture_rect(), free, clear, now_);
+    picture_label(ui_, state_, clear);
+  }
+  bool hidden = false;
+  lab_.draw(ui_, covered ? hidden : state_.lab_visible, vec2(0), free_size);
+  texture_viewer_.draw(ui_, state_, vec2(0), free_size);
   message_strips(ui_, state_, vec2(0), free_size);
   help_overlay(ui_, state_, 0.5f * free_size, 0.96f * free_size);
   const vec2 bottom_center(0.5f * free_size.x, free_size.y);
   if (!shows_panels() && !state_.notice.empty())
     floating_line(ui_, "notice", state_.notice, bottom_center);
-  else if (now_ - first_frame_ < kHintSeconds && !state_.help_visible && !state_.lab_visible)
+  else if (now_ - first_frame_ < kHintSeconds && !state_.help_visible && !state_.lab_visible && !covered)
     floating_line(ui_, "hint",
                   "W A S D to fly, drag to look, middle or Alt+drag to orbit; F1 shows every key",
                   bottom_center);

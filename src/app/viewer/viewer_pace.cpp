@@ -50,7 +50,8 @@ void Viewer::shown(WindowFrame frame) {
 bool Viewer::wants_redraw() const {
   return !events_.empty() || redraws_ > 0 || owes_drawing_ || fly_command().any() ||
          reader_.has_completions() || writer_.has_completions() || watch_.has_change() ||
-         inspector_.wants_redraw() || lab_.has_news() || session_->display() != viewport_.shown() ||
+         inspector_.wants_redraw() || lab_.has_news() || texture_viewer_.has_news() ||
+         thumbnails_.has_news() || session_->display() != viewport_.shown() ||
          session_->status().phase != drawn_phase_ || comparison_wants_redraw();
 }
 
@@ -65,6 +66,12 @@ void Viewer::read_meter() {
   state_.meter = meter_.readings();
   const bool refines = state_.status.phase == SessionPhase::rendering && seconds < 2 * kEvery;
   state_.meter.render_share = refines ? spent / (seconds * session_->threads()) : share;
+}
+
+/// For the first picture after an edit, or for that of a gesture.
+bool Viewer::user_waits() const {
+  return state_.edited || meter_.waiting() || gesture_ != Gesture::none || fly_command().any() ||
+         state_.status.phase == SessionPhase::building || !state_.picture;
 }
 
 bool Viewer::awaited_picture_is_there() const {
@@ -85,7 +92,7 @@ double Viewer::next_frame() const {
   const bool coarse = state_.picture && state_.picture->frame->spp < 1;
   if (owes_drawing_)
     due = std::min(due, owed_since_ + kWaitingInterval);
-  else if (coarse || redraws_ > 0 || meter_.waiting())
+  else if (coarse || redraws_ > 0 || meter_.waiting() || texture_viewer_.has_news())
     due = std::min(due, drawn_at_ + (meter_.waiting() ? kWaitingInterval : kPictureInterval));
   return due;
 }
@@ -97,7 +104,8 @@ double Viewer::refining_interval() const {
 double Viewer::idle_seconds() const {
   if (fly_command().any()) return 0;
   if (typing_ && std::ranges::any_of(ImGui::GetIO().KeysDown, std::identity())) return 0; // keys repeat
-  if (is_busy(drawn_phase_) || compare_.busy() || typing_ || state_.loading > 0 || history_.pending())
+  if (is_busy(drawn_phase_) || compare_.busy() || typing_ || state_.loading > 0 || history_.pending() ||
+      thumbnails_.waits())
     return kBusyRedrawSeconds;
   double idle = kIdleRedrawSeconds;
   if (state_.inspect.focus_mark)

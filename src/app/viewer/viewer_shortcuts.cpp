@@ -29,11 +29,12 @@ bool Viewer::asks() const {
   return state_.question != Question::none || state_.save_as_visible || !imgui_->OpenPopupStack.empty();
 }
 
-/// Keys without modifiers belong to a question, or to the lab while it covers the view.
+/// Keys without modifiers belong to a question, or to the lab or a texture while it covers the view.
 bool Viewer::single_keys_act(Key key) const {
   if (key == Key::escape) return true;
   if (asks()) return false;
-  return !state_.lab_visible || key == Key::f1 || key == Key::f2 || key == Key::tab;
+  const bool covered = state_.lab_visible || state_.texture_view.visible;
+  return !covered || key == Key::f1 || key == Key::f2 || key == Key::tab;
 }
 
 void Viewer::run_shortcuts() {
@@ -81,7 +82,7 @@ void Viewer::run_plain_shortcut(Key key) {
     break;
   case Key::tab: state_.panels_visible = !state_.panels_visible; break;
   case Key::f1: state_.help_visible = !state_.help_visible; break;
-  case Key::f2: state_.lab_visible = !state_.lab_visible; break;
+  case Key::f2: state_.toggle_lab(); break;
   case Key::p: state_.save_requested = true; break;
   case Key::home: state_.reset_view_requested = true; break;
   case Key::keypad_5: state_.projection_requested = true; break;
@@ -121,6 +122,8 @@ void Viewer::escape() {
     state_.help_visible = false;
   else if (!state_.error.empty())
     state_.error.clear();
+  else if (state_.texture_view.visible)
+    state_.texture_view.visible = false;
   else if (state_.lab_visible)
     state_.lab_visible = false;
   else

@@ -129,8 +129,11 @@ std::optional<MeshedShape> meshed_shape(const Shape& shape) {
   auto scaled = [](const Shape& standard, float radius, float height) {
     return MeshedShape{standard, glm::scale(mat4(1), {radius, radius, height})};
   };
-  if (std::holds_alternative<PlaneShape>(shape) || std::holds_alternative<CubeShape>(shape))
-    return MeshedShape{shape};
+  if (std::holds_alternative<PlaneShape>(shape) || std::holds_alternative<CubeShape>(shape)) {
+    MeshedShape same; // assigned: g++ 12 suspects a temporary of not being initialised
+    same.standard = shape;
+    return same;
+  }
   if (const auto* c = std::get_if<CylinderShape>(&shape))
     return scaled(CylinderShape{1, 1, c->caps}, c->radius, c->height);
   if (const auto* c = std::get_if<ConeShape>(&shape))

@@ -1,0 +1,15 @@
+#pragma once
+// Pictures of materials for the panels, and which of them are on the screen.
+
+#include <cstddef>
+#include <set>
+#include <vector>
+
+namespace candela {
+
+struct ThumbnailState {
+  std::vector<unsigned> textures; ///< the driver's, of the scene's materials by index; 0: none yet
+  std::set<std::size_t> drawn;    ///< materials whose pictures this frame shows: those are made
+};
+
+} // namespace candela
