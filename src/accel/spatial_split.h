@@ -13,7 +13,10 @@ struct Parts {
 };
 
 /// What as many refs cost to test, over their area; see packs().
-inline float packs_of(std::uint32_t count) { return static_cast<float>((count + kWidth - 1) / kWidth); }
+inline float packs_of(std::uint32_t count) {
+  const auto packs = (count + kWidth - 1) / kWidth;
+  return static_cast<float>(packs);
+}
 
 inline bool is_empty(const BuildBox& box) {
   simd::Vec4 d = box.v.lower() + box.v.upper(); // lower minus upper corner

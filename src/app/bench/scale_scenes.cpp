@@ -89,7 +89,7 @@ std::string write_landscape(const std::string& folder, const std::string& name, 
   const Mesh mesh = mountain_mesh(triangles);
   write_obj(mesh, "landscape.mtl", fmt::format("{}/{}.obj", folder, name));
   const glm::dvec2 eye(0.3, 2.2), target(-0.6, -8);
-  const std::string path = fmt::format("{}/{}.json", folder, name);
+  std::string path = fmt::format("{}/{}.json", folder, name);
   write_file_atomically(path,
                         fmt::format(kLandscape, mesh.triangles.size(), eye.x, mountain_height(eye) + 0.45,
                                     eye.y, target.x, 1.2, target.y, name + ".obj"));
@@ -121,7 +121,7 @@ std::string write_stones(const std::string& folder, const std::string& name, int
         hashed_unit(index, 14) - 0.5, hashed_unit(index, 15), 360 * hashed_unit(index, 16), r * std::cos(phi),
         0.5 * size, r * std::sin(phi));
   }
-  const std::string path = fmt::format("{}/{}.json", folder, name);
+  std::string path = fmt::format("{}/{}.json", folder, name);
   write_file_atomically(path, text + kStonesTail);
   return path;
 }
