@@ -3,6 +3,7 @@
 
 #include "lights/rectangle_light.h"
 #include "lights/triangle_light.h"
+#include "render/world/smooth_triangle.h"
 #include "render/world/sphere_uv.h"
 #include "render/world/surface_kind.h"
 #include "render/world/triangle_set.h"
@@ -59,6 +60,15 @@ struct TriangleSurfaces {
     s.position_error = p.error;
     s.geometric_normal = p.normal;
     s.shading_normal = shading_normal(set.smooth_normal(t, hit.u, hit.v), p.normal);
+  }
+  bool has_smooth() const { return !set.normals.empty(); }
+  std::optional<SmoothTriangle> smooth_triangle(const Hit& hit) const {
+    const uvec3 t = set.triangles[hit.primitive];
+    const vec3 smooth = set.smooth_normal(t, hit.u, hit.v);
+    if (is_black(smooth)) return std::nullopt;
+    return SmoothTriangle{{set.positions[t.x], set.positions[t.y], set.positions[t.z]},
+                          {set.normals[t.x], set.normals[t.y], set.normals[t.z]},
+                          smooth};
   }
   vec2 uv(const Ray&, const Hit& hit) const {
     if (!is_ellipsoid(hit.primitive)) return set.uv(hit);
