@@ -61,6 +61,8 @@ struct PathSettings {
   /// Number of paths that continue from the first surface that is not specular (path splitting); a pixel's
   /// first sample is not split.
   int split = 2;
+  /// Reflected rays leave smooth meshes from the curved surface that their vertices' normals describe.
+  bool smooth_terminator = true;
   float clamp = 0; ///< largest channel of a sample; 0: off (clamping is biased)
   bool operator==(const PathSettings&) const = default;
 };

@@ -101,6 +101,11 @@ const Field<Document> kRows[] = {
       "Number of paths that continue from the first surface that is not specular, each with its share of the "
       "weight; a pixel's first sample is not split, for an early picture"},
      AT(settings.path.split)},
+    {{"path.smooth_terminator", FieldType::boolean, 0, 0, "",
+      "Light leaves meshes with vertex normals from the curved surface that those describe, so that coarse "
+      "ones "
+      "show no facets where the light grazes them; off: from the triangles"},
+     AT(settings.path.smooth_terminator)},
     {{"path.clamp",
       FieldType::real,
       0,

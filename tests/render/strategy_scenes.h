@@ -249,6 +249,29 @@ inline Document shaped_lights_scene() {
   return s.document;
 }
 
+/// Balls of a few smooth triangles, at the rims of lamps that graze them: matte, glossy, translucent, and
+/// squeezed copies of one mesh, large enough not to be baked.
+inline Document coarse_balls_scene() {
+  SceneMaker s(8, 8, 1);
+  auto ball = std::make_shared<const Mesh>(sphere_mesh(5, 8, true));
+  auto place = [&](vec3 at, vec3 size, int mat) {
+    s.mesh_shared(ball, mat, glm::scale(glm::translate(mat4(1), at), size));
+  };
+  place({-1.1f, 0.2f, 0}, vec3(1), s.diffuse({0.8f, 0.7f, 0.6f}));
+  place({1.1f, 0.2f, 0}, vec3(1), s.material(strategy_material("ggx", vec3(0), {0.9f, 0.7f, 0.5f})));
+  place({-1.1f, -1.7f, 0}, {1, 0.7f, 0.8f},
+        s.material(strategy_material("phong", {0.3f, 0.4f, 0.2f}, {0.5f, 0.4f, 0.5f})));
+  auto finer = std::make_shared<const Mesh>(sphere_mesh(32, 40, true));
+  const int white = s.diffuse(vec3(0.7f));
+  for (float x : {0.7f, 1.6f})
+    s.mesh_shared(finer, white, glm::scale(glm::translate(mat4(1), {x, -1.6f, 0}), {0.4f, -0.8f, 0.6f}));
+  s.rectangle({-4, 0, 0}, {0, 2.5f, 0}, {0, 0, -2.5f}, s.diffuse(vec3(0.2f), {2, 3, 4}));
+  s.document.scene.instances.back().world_from_object[2] = vec4(1, 0, 0, 0);
+  s.sphere({0, 3, -1.5f}, 1, s.diffuse(vec3(0.2f), {4, 3, 2}));
+  s.camera({0, -0.5f, 7}, {0, -0.7f, 0}, 38);
+  return s.document;
+}
+
 inline std::vector<NamedScene> strategy_scenes() {
   Document cornell = cornell_flush(8, 8, 1, true).document;
   return {{"Cornell box with blocks", cornell},
@@ -261,7 +284,8 @@ inline std::vector<NamedScene> strategy_scenes() {
           {"coarse smooth gloss", smooth_gloss_scene()},
           {"textured lamps", textured_lamps_scene()},
           {"filtered textures", filtered_textures_scene()},
-          {"shaped lights", shaped_lights_scene()}};
+          {"shaped lights", shaped_lights_scene()},
+          {"coarse smooth balls", coarse_balls_scene()}};
 }
 
 } // namespace candela::test

@@ -1,9 +1,12 @@
 #include "render/integrators/path_integrator.h"
 
+#include "render/integrators/smooth_terminator.h"
+
 namespace candela {
 
 PathTracer::PathTracer(const RenderScene& scene, const PathSettings& settings)
-    : scene_(scene), settings_(settings), last_depth_(longest_path(settings)) {
+    : scene_(scene), settings_(settings), last_depth_(longest_path(settings)),
+      smooths_terminator_(settings.smooth_terminator && scene.geometry().has_smooth_triangles()) {
   branched_.reserve(kLaneCount); // draws point into it
 }
 
@@ -208,6 +211,8 @@ void PathTracer::make_vertices(std::size_t begin, std::size_t count, int depth) 
     for (std::size_t i = 0; i < count; ++i) cones[i] = cone_of(*arrived_[begin + i]);
   vertices_.set(scene_, {rays.data(), count}, std::span(hits_).subspan(begin, count),
                 {media.data(), media_count}, {cones.data(), scene_.filters_textures() ? count : 0});
+  if (smooths_terminator_)
+    smooth_terminator(vertices_, scene_.geometry(), std::span(hits_).subspan(begin, count));
   scattering_.clear();
   scattering_flags_ = BsdfFlags::none;
   shading_points_.count = 0;

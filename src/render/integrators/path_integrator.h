@@ -122,6 +122,7 @@ private:
   const RenderScene& scene_;
   PathSettings settings_;
   int last_depth_;
+  bool smooths_terminator_; ///< there is something to do for it
 
   // Of the batch in flight.
   std::span<PathSample> results_;

@@ -2,6 +2,7 @@
 
 #include "materials/delta_lobes.h"
 #include "render/integrators/russian_roulette.h"
+#include "render/integrators/smooth_terminator.h"
 
 #include <array>
 
@@ -63,7 +64,7 @@ private:
         add_environment(path, depth);
         return;
       }
-      const Vertex vertex(scene_, path.ray, hit);
+      Vertex vertex(scene_, path.ray, hit);
       const SurfaceMaterial& material = *vertex.material;
       bool outside = vertex.side > 0;
       auto texture_at = [&] { return texture_point(scene_, path.ray, hit, cone, material.asks_place); };
@@ -78,6 +79,7 @@ private:
           material.textured != nullptr ? evaluate_bsdf(material, texture_at(), blends) : material.bsdf;
       if (material.oriented) orient_bsdf(bsdf, scene_.geometry(), path.ray, hit, vertex.frame.n);
       set_outside(scene_, material, path.media, outside, bsdf);
+      if (settings_.smooth_terminator) smooth_terminator(vertex, bsdf, scene_.geometry(), hit);
       if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1) {
         Spectrum light =
             direct_light_.estimate(scene_, vertex, bsdf, sampler_, settings_, counts_, stop_, &path.media);

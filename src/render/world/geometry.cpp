@@ -20,6 +20,15 @@ SurfaceTangents Geometry::tangents(const Ray& ray, const Hit& hit) const {
   return surfaces_.visit(hit, [&](const auto& kind, std::uint64_t) { return kind.tangents(ray, hit); });
 }
 
+std::optional<SmoothTriangle> Geometry::smooth_triangle(const Hit& hit) const {
+  return surfaces_.visit(hit, [&](const auto& kind, std::uint64_t) -> std::optional<SmoothTriangle> {
+    if constexpr (requires { kind.smooth_triangle(hit); })
+      return kind.smooth_triangle(hit);
+    else
+      return std::nullopt;
+  });
+}
+
 std::uint32_t Geometry::other_material_of(const Hit& hit) const {
   return surfaces_.visit(hit, [&](const auto& kind, std::uint64_t) { return kind.material_of(hit); });
 }

@@ -32,6 +32,10 @@ public:
   vec2 uv(const Ray& ray, const Hit& hit) const;
   /// How the texture coordinates of uv() change about a hit of `ray`: apart from the rest likewise.
   SurfaceTangents tangents(const Ray& ray, const Hit& hit) const;
+  /// Whether any triangle has vertices' normals.
+  bool has_smooth_triangles() const { return has_smooth_triangles_; }
+  /// The triangle of a hit, if its vertices have normals.
+  std::optional<SmoothTriangle> smooth_triangle(const Hit& hit) const;
   /// Material index of a hit, without the rest: what opacity needs. Most are triangles.
   std::uint32_t material_of(const Hit& hit) const {
     if (hit.kind == PrimitiveKind::triangle && hit.instance == kNoInstance)
@@ -71,6 +75,7 @@ private:
   BuildQuality quality_ = BuildQuality::high;
   Accel accel_;
   Bounds3 finite_bounds_;
+  bool has_smooth_triangles_ = false;
 };
 
 } // namespace candela

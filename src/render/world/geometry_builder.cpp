@@ -104,6 +104,7 @@ public:
     g_->accel_ = Accel::build(world, g_->quality_, progress);
     bool endless = std::ranges::any_of(
         instances_, [](const Instance& i) { return std::holds_alternative<PlaneShape>(i.shape); });
+    g_->has_smooth_triangles_ = triangles_.has_smooth() || instanced_.has_smooth();
     g_->finite_bounds_ = endless ? instance_bounds(instances_) : g_->accel_.bounds();
     return g_;
   }

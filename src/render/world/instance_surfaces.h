@@ -1,6 +1,7 @@
 #pragma once
 // Placed copies of meshes that have a tree of their own.
 
+#include "render/world/smooth_triangle.h"
 #include "render/world/surface_kind.h"
 #include "render/world/triangle_set.h"
 
@@ -62,6 +63,24 @@ struct InstanceSurfaces {
     s.geometric_normal = glm::normalize(p.normal_to_world * local.normal);
     s.shading_normal =
         shading_normal(p.normal_to_world * set.smooth_normal(t, hit.u, hit.v), s.geometric_normal);
+  }
+  bool has_smooth() const {
+    return std::ranges::any_of(objects, [](const auto& object) { return !object->set.normals.empty(); });
+  }
+  std::optional<SmoothTriangle> smooth_triangle(const Hit& hit) const {
+    const PlacedObject& p = placed[hit.instance];
+    const TriangleSet& set = set_of(hit);
+    const uvec3 t = set.triangles[hit.primitive];
+    const vec3 smooth = set.smooth_normal(t, hit.u, hit.v);
+    if (is_black(smooth)) return std::nullopt;
+    SmoothTriangle s;
+    for (int i = 0; i < 3; ++i) {
+      const auto corner = static_cast<std::size_t>(i);
+      s.positions[corner] = transform_point(p.world_from_object, set.positions[t[i]]);
+      s.normals[corner] = glm::normalize(p.normal_to_world * set.normals[t[i]]);
+    }
+    s.smooth_normal = p.normal_to_world * smooth;
+    return s;
   }
   vec2 uv(const Ray&, const Hit& hit) const { return set_of(hit).uv(hit); }
   SurfaceTangents tangents(const Ray&, const Hit& hit) const {

@@ -28,6 +28,8 @@ namespace candela {
 ///
 /// - add(instance, index): whether the instance is made of this kind; then it is added.
 /// - input: for the build of the tree.
+///
+/// Optional, of kinds that may be smooth: smooth_triangle, as Geometry's.
 template <class K>
 concept SurfaceKind = requires(const K& k, const Ray& ray, const Hit& hit, SurfaceInteraction& s,
                                std::uint64_t number, vec3 point) {

@@ -3,6 +3,7 @@
 
 #include "lights/rectangle_light.h"
 #include "lights/triangle_light.h"
+#include "render/world/smooth_triangle.h"
 #include "render/world/sphere_uv.h"
 #include "render/world/surface_kind.h"
 #include "render/world/triangle_set.h"
@@ -60,6 +61,15 @@ struct TriangleSurfaces {
     s.geometric_normal = p.normal;
     s.shading_normal = shading_normal(set.smooth_normal(t, hit.u, hit.v), p.normal);
   }
+  bool has_smooth() const { return !set.normals.empty(); }
+  std::optional<SmoothTriangle> smooth_triangle(const Hit& hit) const {
+    const uvec3 t = set.triangles[hit.primitive];
+    const vec3 smooth = set.smooth_normal(t, hit.u, hit.v);
+    if (is_black(smooth)) return std::nullopt;
+    return SmoothTriangle{{set.positions[t.x], set.positions[t.y], set.positions[t.z]},
+                          {set.normals[t.x], set.normals[t.y], set.normals[t.z]},
+                          smooth};
+  }
   vec2 uv(const Ray&, const Hit& hit) const {
     if (!is_ellipsoid(hit.primitive)) return set.uv(hit);
     const uvec3 t = set.triangles[hit.primitive]; // not linear in them: the same as on a sphere
@@ -89,7 +99,8 @@ struct TriangleSurfaces {
       if (!emits(material) || !r.is_light()) continue;
       add(r.first_triangle, 2, material, [&](const EmitterRadiance& radiance) {
         const bool mirrored = set.uvs[set.triangles[r.first_triangle].x].x > 0.5f;
-        const LightRadiance sent = radiance.over_rectangle(mirrored);
+        const LightRadiance sent =
+            radiance.over_chart(mirrored ? EmissionChart::mirrored_rectangle : EmissionChart::rectangle);
         return RectangleLight(r.corner, r.edge_x, r.edge_y, sent.mean, sent.two_sided, sent.picture);
       });
     }

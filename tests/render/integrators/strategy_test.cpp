@@ -99,6 +99,7 @@ TEST(StrategyStatistical, CoarseSmoothGloss) { expect_one_expectation(strategy_s
 TEST(StrategyStatistical, TexturedLamps) { expect_one_expectation(strategy_scenes()[8], 512); }
 TEST(StrategyStatistical, FilteredTextures) { expect_one_expectation(strategy_scenes()[9], 512); }
 TEST(StrategyStatistical, ShapedLights) { expect_one_expectation(strategy_scenes()[10], 512); }
+TEST(StrategyStatistical, CoarseSmoothBalls) { expect_one_expectation(strategy_scenes()[11], 512); }
 
 /// Everything with everything.
 void expect_all_combinations_agree(const NamedScene& scene) {
@@ -131,6 +132,7 @@ TEST(StrategyHeavy, CoarseSmoothGloss) { expect_all_combinations_agree(strategy_
 TEST(StrategyHeavy, TexturedLamps) { expect_all_combinations_agree(strategy_scenes()[8]); }
 TEST(StrategyHeavy, FilteredTextures) { expect_all_combinations_agree(strategy_scenes()[9]); }
 TEST(StrategyHeavy, ShapedLights) { expect_all_combinations_agree(strategy_scenes()[10]); }
+TEST(StrategyHeavy, CoarseSmoothBalls) { expect_all_combinations_agree(strategy_scenes()[11]); }
 
 TEST(StrategyStatistical, RouletteKeepsTheMeanOfUnlimitedPaths) {
   Document d = mirror_and_glass_scene();
