@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -75,6 +76,8 @@ struct HarnessOptions {
 /// One at a time: the newest context is the current one.
 class ViewerHarness {
 public:
+  static constexpr double kPatience = 240; ///< seconds
+
   explicit ViewerHarness(Document document = test_document(), const HarnessOptions& options = {})
       : viewer(context_.gl(), viewer_options(std::move(document), options)) {
     resize(options.size, options.scale);
@@ -93,18 +96,22 @@ public:
   /// Long enough that the next click is not the second one of a double click.
   void pause() { frame(1, 0.5); }
 
+  // What waits ends the test, by an exception, if it waits in vain: longer than the slowest machine could
+  // take.
+
   /// Waits until the newest Document is rendered and on the screen.
-  void wait_for_picture(double seconds = 60) {
-    ASSERT_TRUE(viewer.session().wait_finished(seconds)) << "the picture did not get ready";
+  void wait_for_picture(double seconds = kPatience) {
+    if (!viewer.session().wait_finished(seconds)) throw std::runtime_error("the picture did not get ready");
     frame(2);
   }
 
-  /// Draws frames until `done`; fails after 30 seconds.
+  /// Draws frames until `done`.
   template <class Condition>
   void wait_until(const char* what, Condition done) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPatience);
     while (!done()) {
-      ASSERT_LT(std::chrono::steady_clock::now(), end) << "waited in vain until " << what;
+      if (std::chrono::steady_clock::now() > end)
+        throw std::runtime_error(std::string("waited in vain until ") + what);
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
       frame();
     }
