@@ -111,12 +111,12 @@ TEST_F(OidnDenoiser, SessionsSayWhyThereIsNoPicture) {
   Document document = test::cornell_flush(16, 12, 2, true).document;
   document.settings.display.denoise = true;
   session.submit(document);
-  ASSERT_TRUE(session.wait_finished(60));
+  ASSERT_TRUE(session.wait_finished(240));
   EXPECT_NE(session.status().denoise_error.find("OIDN 0.0.0"), std::string::npos);
   EXPECT_FALSE(session.display()->denoised);
   document.settings.sampler.seed += 1;
   session.submit(document);
-  ASSERT_TRUE(session.wait_finished(60));
+  ASSERT_TRUE(session.wait_finished(240));
   EXPECT_EQ(session.status().denoise_error, "");
   EXPECT_TRUE(session.display()->denoised);
 }

@@ -121,8 +121,8 @@ TEST(RenderTurnsRender, SessionsStayLevelAndGiveTheSamePictures) {
     if (x.phase == SessionPhase::finished && y.phase == SessionPhase::finished) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  ASSERT_TRUE(first.wait_finished(60));
-  ASSERT_TRUE(second.wait_finished(60));
+  ASSERT_TRUE(first.wait_finished(240));
+  ASSERT_TRUE(second.wait_finished(240));
   EXPECT_EQ(first.status().spp, 40);
   EXPECT_EQ(second.status().spp, 40);
 
@@ -130,7 +130,7 @@ TEST(RenderTurnsRender, SessionsStayLevelAndGiveTheSamePictures) {
   without_turns.threads = 2;
   RenderSession alone(without_turns);
   alone.submit(b);
-  ASSERT_TRUE(alone.wait_finished(60));
+  ASSERT_TRUE(alone.wait_finished(240));
   EXPECT_EQ(alone.latest()->linear, second.latest()->linear) << "taking turns changes no sample";
 }
 

@@ -58,7 +58,7 @@ TEST(SessionControl, EveryPauseIsReachedAndShowsEverySample) {
   session.submit(small_cornell(0, 2, 2));
   for (int i = 0; i < 4000; ++i) {
     session.pause(true);
-    ASSERT_TRUE(session.wait_finished(10)) << "pause " << i << " is never reached";
+    ASSERT_TRUE(session.wait_finished(240)) << "pause " << i << " is never reached";
     const SessionStatus status = session.status();
     ASSERT_EQ(status.phase, SessionPhase::paused);
     ASSERT_EQ(session.latest()->rays.samples, status.rays.samples) << "pause " << i << " hides samples";

@@ -19,8 +19,8 @@ inline void wait_for_both(ViewerHarness& hand) {
     return variants[0].status.phase == SessionPhase::finished &&
            variants[1].status.phase == SessionPhase::finished;
   });
-  hand.viewer.session().wait_finished(30);
-  hand.viewer.comparison().other_session()->wait_finished(30);
+  hand.viewer.session().wait_finished(ViewerHarness::kPatience);
+  hand.viewer.comparison().other_session()->wait_finished(ViewerHarness::kPatience);
   hand.frame(3, 11); // past the hints
 }
 

@@ -118,7 +118,7 @@ TEST(ViewerWatchUi, APanoramaThatWasDroppedIsReplacedAndNoEditIsLost) {
 }
 
 void wait_for_change(const FileWatch& watch) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(240);
   while (!watch.has_change() && std::chrono::steady_clock::now() < end)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
