@@ -276,7 +276,7 @@ private:
     out.screenshot_folder = options.screenshot_folder;
     out.threads = 2;
     out.on_build = options.on_build;
-    out.thumbnails = {1, 4, 10, 0}; // few samples: the tests are not to wait
+    out.thumbnails = {1, 2, 10, 0}; // few samples: the tests are not to wait
     out.scene_path = options.scene_path;
     std::string warning;
     out.preferences_path = options.preferences;
