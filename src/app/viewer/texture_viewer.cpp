@@ -153,7 +153,7 @@ void TextureViewer::controls(Ui& ui, ViewerState& state, const std::vector<Textu
   const ImageTexture* image = texture_->image();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float third = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
-  if (ui.button("texture_view.fit", "Fit", "All of it (F); double-click the picture", third))
+  if (ui.button("texture_view.fit", "Fit", "All of it; double-click the picture", third))
     view.fit_wanted = true;
   ImGui::SameLine();
   if (ui.button("texture_view.one", "1:1", "One texel is one pixel of the screen", third)) {

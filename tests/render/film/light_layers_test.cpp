@@ -16,8 +16,9 @@ using namespace candela::test;
 Document grouped(Document d, bool all = false) {
   int next = 0;
   auto join = [&](std::string& group) {
-    group = next % 3 == 0 ? "a" : next % 3 == 1 ? "b" : all ? "a" : "";
-    ++next;
+    constexpr std::string_view kGroups[] = {"a", "b", ""};
+    group = kGroups[next == 2 && all ? 0 : next];
+    next = (next + 1) % 3;
   };
   for (LightDesc& light : d.scene.lights) join(light.group);
   for (Material& m : d.scene.materials)
@@ -187,7 +188,7 @@ TEST(LightLayersRender, DoNotDependOnPassesAndMerges) {
   Accumulation a(d.settings.film, {.mix = mix});
   ASSERT_TRUE(a.advance(renderer, *scene, d, {})); // the films are not clear when they are used again
   a.restart(d.settings.film, {.coarsest = 4, .mix = mix});
-  ASSERT_TRUE(a.advance(renderer, *scene, d, {.portion = {1, 2}}));
+  ASSERT_TRUE(a.advance(renderer, *scene, d, {.stop = {}, .portion = {1, 2}, .on_pass = {}}));
   EXPECT_TRUE(a.state().layers == expected.by_layer);
   Accumulation first(d.settings.film, {.mix = mix}), second(d.settings.film, {.mix = mix, .first_sample = 3});
   Document part = d;

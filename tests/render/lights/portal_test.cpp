@@ -1,5 +1,6 @@
 // Infinite lights that are sampled through portals.
 
+#include "core/error.h"
 #include "render/quadrants.h"
 #include "render/world/render_scene.h"
 #include "support/direction_statistics.h"
