@@ -28,7 +28,8 @@ PortalRectangle some_portal() {
 bool leads_through(const PortalRectangle& portal, vec3 from, vec3 direction, float slack) {
   const float along = glm::dot(direction, portal.outwards);
   if (!(along > 0)) return false;
-  const vec3 hit = from + direction * (glm::dot(portal.center - from, portal.outwards) / along) - portal.center;
+  const vec3 hit =
+      from + direction * (glm::dot(portal.center - from, portal.outwards) / along) - portal.center;
   return std::abs(glm::dot(hit, portal.axis_x)) <= portal.half_size.x * slack &&
          std::abs(glm::dot(hit, portal.axis_y)) <= portal.half_size.y * slack;
 }
@@ -100,7 +101,7 @@ Document room(bool with_portals, bool constant) {
     panorama->image = {64, 32, {}};
     for (int y = 0; y < 32; ++y)
       for (int x = 0; x < 64; ++x)
-        panorama->image.pixels.push_back(y > 17               ? vec3(0.3f, 0.25f, 0.2f)
+        panorama->image.pixels.push_back(y > 17                ? vec3(0.3f, 0.25f, 0.2f)
                                          : x % 16 < 3 && y > 9 ? vec3(9, 7, 5)
                                                                : vec3(0.8f, 1.2f, 2));
     LightDesc sky;
@@ -129,8 +130,7 @@ Document with(Document d, LightSampling how, int spp, std::uint64_t salt) {
 TEST(PortalStatistical, ChangesNoExpectation) {
   std::uint64_t salt = 0;
   for (bool constant : {false, true}) {
-    const Estimate expected =
-        estimate(render(with(room(false, constant), LightSampling::mis, 4096, ++salt)));
+    const Estimate expected = estimate(render(with(room(false, constant), LightSampling::mis, 4096, ++salt)));
     for (LightSampling how : {LightSampling::bsdf, LightSampling::nee, LightSampling::mis}) {
       SCOPED_TRACE(testing::Message() << "constant " << constant << ", strategy " << static_cast<int>(how));
       expect_same(estimate(render(with(room(true, constant), how, 1024, ++salt))), expected, 6);
