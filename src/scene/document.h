@@ -62,7 +62,7 @@ struct PathSettings {
   /// first sample is not split.
   int split = 2;
   /// Reflected rays leave smooth meshes from the curved surface that their vertices' normals describe.
-  bool smooth_terminator = true;
+  bool smooth_terminator = false;
   float clamp = 0; ///< largest channel of a sample; 0: off (clamping is biased)
   bool operator==(const PathSettings&) const = default;
 };

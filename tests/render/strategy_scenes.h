@@ -269,6 +269,7 @@ inline Document coarse_balls_scene() {
   s.document.scene.instances.back().world_from_object[2] = vec4(1, 0, 0, 0);
   s.sphere({0, 3, -1.5f}, 1, s.diffuse(vec3(0.2f), {4, 3, 2}));
   s.camera({0, -0.5f, 7}, {0, -0.7f, 0}, 38);
+  s.document.settings.path.smooth_terminator = true;
   return s.document;
 }
 

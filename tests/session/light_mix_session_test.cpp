@@ -121,32 +121,5 @@ TEST(RenderSession, RestartsWhereGroupsAreScaledInTheScene) {
   EXPECT_TRUE(session.latest()->linear == view_image(render_document(d).film, View::variance).pixels);
 }
 
-/// A pass that takes long is held for it.
-TEST(RenderSession, MixesSlowPicturesBeforeTheirPassEnds) {
-  RenderSession session;
-  Document d = test::slow_document();
-  LightDesc key;
-  key.group = "key";
-  d.scene.lights = {key};
-  session.submit(d);
-  auto mix = [&]() -> LightMix {
-    const auto frame = session.latest();
-    return frame ? frame->mix : LightMix();
-  };
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPatience);
-  auto wait_for = [&](vec3 factor) {
-    while (mix() != LightMix{factor} && std::chrono::steady_clock::now() < end)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return mix() == LightMix{factor};
-  };
-  ASSERT_TRUE(wait_for(vec3(1)));
-  for (float scale : {2.0f, 3.0f, 4.0f}) {
-    light_group(d.scene, "key").scale = scale;
-    session.submit(d);
-    EXPECT_TRUE(wait_for(vec3(scale)));
-  }
-  EXPECT_EQ(session.status().restarts, 1u);
-}
-
 } // namespace
 } // namespace candela

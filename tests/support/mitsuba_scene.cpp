@@ -126,7 +126,6 @@ public:
   explicit Reader(const std::string& path) {
     read(path);
     document_.settings.path.max_depth = max_depth_;
-    document_.settings.path.smooth_terminator = false;
   }
   Document take() { return std::move(document_); }
 

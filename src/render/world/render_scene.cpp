@@ -3,8 +3,6 @@
 #include "core/error.h"
 #include "materials/material_parts.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <map>
 #include <set>
@@ -111,8 +109,8 @@ void SceneLights::add_emitters(const SceneLights* previous, const Progress* prog
   for (const SurfaceMaterial& m : materials_) any |= m.emissive;
   if (!any) return;
   light_of_emitter_.reset(geometry_->emitter_count());
-  auto table = [&](const SurfaceMaterial& m, EmissionChart chart) -> const EmissionTable& {
-    return emission_table(m, chart, previous, progress);
+  auto table = [&](const SurfaceMaterial& m, bool mirrored) -> const EmissionTable& {
+    return emission_table(m, mirrored, previous, progress);
   };
   geometry_->surfaces().for_each([&](const auto& kind, std::uint64_t first) {
     auto emits = [&](std::uint32_t material) { return materials_[material].emissive; };
@@ -127,10 +125,10 @@ void SceneLights::add_emitters(const SceneLights* previous, const Progress* prog
   });
 }
 
-const EmissionTable& SceneLights::emission_table(const SurfaceMaterial& material, EmissionChart chart,
+const EmissionTable& SceneLights::emission_table(const SurfaceMaterial& material, bool mirrored,
                                                  const SceneLights* previous, const Progress* progress) {
-  auto fits = [&](const ShownEmission& known) {
-    return known.chart == chart && emits_alike(*known.material, material);
+  auto fits = [&](const RectangleEmission& known) {
+    return known.mirrored == mirrored && emits_alike(*known.material, material);
   };
   auto own = std::ranges::find_if(emission_tables_, fits);
   if (own != emission_tables_.end()) return *own->table;
@@ -139,8 +137,8 @@ const EmissionTable& SceneLights::emission_table(const SurfaceMaterial& material
     auto known = std::ranges::find_if(previous->emission_tables_, fits);
     if (known != previous->emission_tables_.end()) table = known->table;
   }
-  if (!table) table = std::make_shared<const EmissionTable>(tabulate_emission(material, chart, progress));
-  emission_tables_.push_back({&material, chart, table});
+  if (!table) table = std::make_shared<const EmissionTable>(tabulate_emission(material, mirrored, progress));
+  emission_tables_.push_back({&material, mirrored, table});
   return *table;
 }
 
@@ -175,58 +173,13 @@ const SkyModel* SceneLights::sky(const SkyParameters& parameters, const SceneLig
   return skies_.emplace_back(KnownSky{parameters, made}).sky.get();
 }
 
-namespace {
-
-/// The openings of a scene that are not closed.
-std::vector<PortalRectangle> open_portals(const std::vector<LightDesc>& lights) {
-  std::vector<PortalRectangle> portals;
-  for (const LightDesc& desc : lights)
-    if (const auto* portal = std::get_if<PortalLightModel>(&desc.model))
-      if (!is_black(desc.color * desc.scale)) portals.push_back(portal_rectangle(*portal));
-  if (portals.size() > PortalGuide::kMostPortals)
-    throw Error(ExitCode::limit, fmt::format("lights: there are more than {} portals: leave out the smallest",
-                                             PortalGuide::kMostPortals));
-  return portals;
-}
-
-} // namespace
-
-/// Tells an environment or constant light where it comes in.
-void SceneLights::give_portals(Light& light, const std::vector<PortalRectangle>& portals,
-                               const SceneLights* previous, const Progress* progress) {
-  auto* environment = std::get_if<EnvironmentLight>(&light);
-  auto* constant = std::get_if<ConstantLight>(&light);
-  if (environment == nullptr && constant == nullptr) return;
-  EnvironmentLight made_for;
-  if (environment != nullptr)
-    made_for = *environment;
-  else
-    made_for.factor = constant->radiance;
-  auto fits = [&](const KnownGuide& known) {
-    return known.portals == portals && known.light.map == made_for.map &&
-           known.light.world_from_map == made_for.world_from_map && known.light.factor == made_for.factor;
-  };
-  std::shared_ptr<const PortalGuide> guide;
-  if (previous != nullptr) {
-    const auto known = std::ranges::find_if(previous->portal_guides_, fits);
-    if (known != previous->portal_guides_.end()) guide = known->guide;
-  }
-  if (!guide)
-    guide = std::make_shared<const PortalGuide>(
-        portals, [&](vec3 direction) { return light_radiance(light, direction); }, progress);
-  portal_guides_.push_back({portals, made_for, guide});
-  (environment != nullptr ? environment->portals : constant->portals) = guide.get();
-}
-
 void SceneLights::add_lights(const SceneLights* previous, const Progress* progress) {
   const LightResources resources{
       [&](const EnvironmentLightModel& m) { return environment_map(m, previous, progress); },
       [&](const SkyParameters& parameters) { return sky(parameters, previous, progress); }};
-  const std::vector<PortalRectangle> portals = open_portals(source_);
   for (std::size_t i = 0; i < source_.size(); ++i) {
     if (is_black(source_[i].color * source_[i].scale)) continue;
-    for (Light light : make_lights(source_[i], resources)) {
-      if (!portals.empty()) give_portals(light, portals, previous, progress);
+    for (const Light& light : make_lights(source_[i], resources)) {
       if (light_kind(light) == LightKind::infinite)
         infinite_lights_.push_back(static_cast<std::uint32_t>(lights_.size()));
       add_light(light, layers_.of_light, i);

@@ -93,10 +93,10 @@ public:
   std::size_t memory_bytes() const;
 
 private:
-  /// What a light of the material shows.
-  struct ShownEmission {
+  /// What a rectangle light of the material shows.
+  struct RectangleEmission {
     const SurfaceMaterial* material;
-    EmissionChart chart;
+    bool mirrored;
     std::shared_ptr<const EmissionTable> table;
   };
 
@@ -105,14 +105,8 @@ private:
     std::shared_ptr<const SkyModel> sky;
   };
 
-  struct KnownGuide {
-    std::vector<PortalRectangle> portals;
-    EnvironmentLight light; ///< without a map: constant
-    std::shared_ptr<const PortalGuide> guide;
-  };
-
   void add_emitters(const SceneLights* previous, const Progress* progress);
-  const EmissionTable& emission_table(const SurfaceMaterial& material, EmissionChart chart,
+  const EmissionTable& emission_table(const SurfaceMaterial& material, bool mirrored,
                                       const SceneLights* previous, const Progress* progress);
   void add_emitter(std::uint64_t emitter, std::uint32_t material, Light light);
   void add_light(const Light& light, const std::vector<std::uint8_t>& layers, std::size_t index);
@@ -120,8 +114,6 @@ private:
   const EnvironmentMap* environment_map(const EnvironmentLightModel& light, const SceneLights* previous,
                                         const Progress* progress);
   const SkyModel* sky(const SkyParameters& parameters, const SceneLights* previous, const Progress* progress);
-  void give_portals(Light& light, const std::vector<PortalRectangle>& portals, const SceneLights* previous,
-                    const Progress* progress);
   void add_selections(const Progress* progress);
 
   // Made of:
@@ -135,12 +127,11 @@ private:
   std::vector<Light> lights_;
   std::vector<std::uint8_t> layer_of_light_; ///< parallel to lights_ where there are layers
   EmitterLights light_of_emitter_;
-  std::vector<EmitterTexture> emitter_textures_; ///< by light; empty where none is textured
-  std::vector<ShownEmission> emission_tables_;   ///< what lights_ point to
+  std::vector<EmitterTexture> emitter_textures_;   ///< by light; empty where none is textured
+  std::vector<RectangleEmission> emission_tables_; ///< what lights_ point to
   std::vector<std::uint32_t> infinite_lights_;
   std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
   std::vector<KnownSky> skies_;                                         ///< what environment_maps_ show
-  std::vector<KnownGuide> portal_guides_;                               ///< what lights_ point to
   LightSelection all_lights_, delta_lights_;
 };
 

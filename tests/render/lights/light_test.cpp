@@ -137,55 +137,6 @@ TEST(LightStatistical, RectangleWithAPicture) {
   expect_density(picture_light(some_picture(), true), {0, 4, 0}, {0, 2, 0}, 0.3);
 }
 
-/// As expect_density(), of lights that show pictures of which a part is out of sight: samples of that fail.
-template <class L>
-void expect_picture_density(const L& light, vec3 reference, vec3 towards, double width) {
-  SCOPED_TRACE(testing::Message() << "from " << reference.x << " " << reference.y << " " << reference.z);
-  const vec3 axis = glm::normalize(towards - reference);
-  const LightSamplingContext ctx{reference, axis};
-  int wrong_pdf = 0;
-  auto draw = [&](std::size_t i) -> std::optional<vec3> {
-    const std::uint64_t h = hash_combine(fresh_seed(), i);
-    const auto s = light.sample(ctx, {to_unit_float(static_cast<std::uint32_t>(h >> 32)),
-                                      to_unit_float(static_cast<std::uint32_t>(h))});
-    if (!s) return std::nullopt;
-    wrong_pdf += !(std::abs(light.pdf(ctx, s->point, s->direction) - s->pdf) <= 2e-3f * s->pdf);
-    return s->direction;
-  };
-  auto pdf = [&](vec3 w) {
-    const auto p = meet(light, dvec3(reference), glm::normalize(dvec3(w)));
-    return p ? static_cast<double>(light.pdf(ctx, vec3(*p), w)) : 0.0;
-  };
-  const DirectionTest result = test_directions(SphereBins(axis, width, 32, 64), 40000, draw, pdf);
-  EXPECT_LE(wrong_pdf, 40) << "some lie on an edge between two cells";
-  EXPECT_GT(result.pdf_integral, 0.5);
-  EXPECT_LT(result.pdf_integral, 1.002);
-  EXPECT_GT(result.chi_square.p_value, sidak_threshold(10)) << seed_note();
-}
-
-TEST(LightStatistical, DiscWithAPicture) {
-  DiscLight light{{0, 2, 0}, {0, -1, 0}, 0.8f, {1, 2, 3}, false};
-  light.set_picture(&some_picture(), {0.6f, 0, 0.8f}, {-0.8f, 0, 0.6f});
-  expect_picture_density(light, {0, 0, 0}, {0, 2, 0}, 0.3);
-  expect_picture_density(light, {0.3f, 1.6f, 0.1f}, {0, 2, 0}, 1);
-  const LightSamplingContext behind{{0, 3, 0}, {0, -1, 0}};
-  EXPECT_FALSE(light.sample(behind, {0.3f, 0.4f}) || light.sample(behind, {0.95f, 0.4f}));
-  light.two_sided = true;
-  expect_picture_density(light, {0.2f, 3, 0}, {0, 2, 0}, 0.5);
-}
-
-TEST(LightStatistical, SphereWithAPicture) {
-  SphereLight light{{1, 2, 3}, 0.7f, {1, 2, 3}, false};
-  const mat3 turned(glm::rotate(mat4(1), 0.8f, vec3(1, 2, -1)));
-  light.set_picture(&some_picture(), turned);
-  expect_picture_density(light, {1, 0, 3}, {1, 2, 3}, 0.4);
-  expect_picture_density(light, {2.5f, 2, 2}, {1, 2, 3}, 0.5);
-  const LightSamplingContext inside{{1.2f, 2, 3}, {0, -1, 0}};
-  EXPECT_FALSE(light.sample(inside, {0.3f, 0.4f}) || light.sample(inside, {0.95f, 0.4f}));
-  light.two_sided = true;
-  expect_picture_density(light, {1.2f, 2.1f, 3}, {1, 2, 3}, 2);
-}
-
 /// Of value(place, density in 1/sr), the integral over the solid angle of the light.
 template <class Value>
 double over_light(const RectangleLight& light, const LightSamplingContext& ctx, Value value) {
