@@ -59,10 +59,10 @@ public:
   /// Submits a new Document, which replaces an earlier one that was not taken yet, and returns its
   /// generation. compare_documents() decides what it restarts: a display-only change tone-maps the newest
   /// frame again and keeps accumulating. Other factors of light groups that the film keeps apart are applied
-  /// to its samples, at once (light_layers.h). A Document with other meshes or panoramas cancels building the
-  /// previous one. If meshes are only moved, copied or deleted, geometry is built fast, within milliseconds,
-  /// and with high quality in the background; then the accumulation restarts without a coarse picture. Only
-  /// that accumulation counts as finished.
+  /// to its samples (light_layers.h), at once but for the first pass, which ends before. A Document with
+  /// other meshes or panoramas cancels building the previous one. If meshes are only moved, copied or
+  /// deleted, geometry is built fast, within milliseconds, and with high quality in the background; then the
+  /// accumulation restarts without a coarse picture. Only that accumulation counts as finished.
   std::uint64_t submit(Document document);
   /// Objects may be moved soon: prepares for it.
   void expect_moves();
