@@ -1,5 +1,6 @@
 #include "app/viewer/material_thumbnails.h"
 
+#include "app/platform/gl_texture.h"
 #include "core/error.h"
 #include "io/scene_reader.h"
 #include "session/worker_threads.h"
@@ -130,14 +131,8 @@ void MaterialThumbnails::finish(const MaterialSample& sample, int side, int spp,
 
 void MaterialThumbnails::upload(Entry& entry) {
   if (entry.texture == 0) gl_.GenTextures(1, &entry.texture);
-  gl_.BindTexture(GL_TEXTURE_2D, entry.texture);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, entry.side, entry.side, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                 entry.pixels->data());
+  upload_rgba8(gl_, entry.texture, ivec2(entry.side), entry.pixels->data(), GL_LINEAR_MIPMAP_LINEAR,
+               GL_LINEAR);
   gl_.GenerateMipmap(GL_TEXTURE_2D);
 }
 

@@ -1,5 +1,7 @@
 #include "app/viewer/texture_tiles.h"
 
+#include "app/platform/gl_texture.h"
+
 #include <imgui.h>
 
 #include <algorithm>
@@ -169,14 +171,7 @@ void TextureTiles::install(Look& look, const std::vector<Made>& made) {
     if (tile.texture == 0) gl_.GenTextures(1, &tile.texture);
     tile.size = m.size;
     tile.used = frame_;
-    gl_.BindTexture(GL_TEXTURE_2D, tile.texture);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, m.size.x, m.size.y, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                   m.pixels.data());
+    upload_rgba8(gl_, tile.texture, m.size, m.pixels.data(), GL_LINEAR, GL_NEAREST);
   }
 }
 
