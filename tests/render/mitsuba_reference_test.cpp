@@ -32,6 +32,10 @@ struct Case {
   const char* integrator;
   /// Blocks that are not compared, [lo, hi): those of a ball of rough plastic.
   ivec2 lo{0}, hi{0};
+  /// Blocks at the picture's edges that are not compared. The projector's light ends 0.55 pixels before the
+  /// centres of their first pixels. Mitsuba's filter is a table of 31 steps, which puts 0.1425 of its weight
+  /// there; the Gaussian itself has 0.1349.
+  int border = 0;
 };
 constexpr ivec2 kPlasticLo{2, 1}, kPlasticHi{4, 3}; ///< in sphere_grid.xml
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -69,6 +73,7 @@ TEST_P(MitsubaReferenceRender, BlocksAgree) {
   for (int by = 0; by < down; ++by)
     for (int bx = 0; bx < across; ++bx) {
       const ivec2 b(bx, by);
+      if (std::min({bx, by, across - 1 - bx, down - 1 - by}) < GetParam().border) continue;
       if (glm::all(glm::greaterThanEqual(b, GetParam().lo)) && glm::all(glm::lessThan(b, GetParam().hi)))
         continue;
       glm::dvec3 ours(0), theirs(0), spread(0);
@@ -107,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"mesh_attributes", "test_mesh_attributes_1_face", "direct"},
                     Case{"mesh_attributes", "test_mesh_attributes_3_face", "direct"},
                     Case{"mesh_attributes", "test_mesh_attributes_3_vertex", "direct"},
-                    Case{"projector", "test_projector_constant", "direct"},
+                    Case{"projector", "test_projector_constant", "direct", ivec2(0), ivec2(0), 1},
                     Case{"texture_interp", "test_texture_interp", "direct"}),
     name_of);
 
