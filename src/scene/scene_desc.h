@@ -23,6 +23,9 @@ enum class Projection : int { perspective, orthographic, spherical };
 /// The lens of a perspective camera: a thin one, or one of render/camera/lenses.h.
 enum class Lens : int { thin, double_gauss, wide_angle, telephoto, fisheye };
 
+/// Where the film holds a picture for each eye.
+enum class Stereo : int { none, side_by_side, top_bottom };
+
 /// A pinhole, or a thin lens when aperture_radius > 0.
 struct Camera {
   vec3 position{0, 0, 5};
@@ -41,10 +44,20 @@ struct Camera {
   float f_stop = 0;            ///< of a lens of elements; 0: wide open
   float sensor_diagonal = 35;  ///< mm, of the film behind such a lens
   float units_per_mm = 0.001f; ///< scene units a millimetre of such a lens
+  Stereo stereo = Stereo::none;
+  float interocular_distance = 0.065f; ///< scene units, between the eyes
+  float convergence_distance = 0;      ///< scene units, where the eyes' pictures coincide; 0: at infinity
   bool operator==(const Camera&) const = default;
 
   /// Whether rays go through a lens of elements.
   bool has_elements() const { return projection == Projection::perspective && lens != Lens::thin; }
+  /// Width over height of what the film shows: `aspect`, of a stereo pair that of both views together; 0: as
+  /// its pixels are.
+  float film_aspect() const {
+    return stereo == Stereo::side_by_side ? 2 * aspect
+           : stereo == Stereo::top_bottom ? 0.5f * aspect
+                                          : aspect;
+  }
   float effective_focus_distance() const {
     return focus_distance > 0 ? focus_distance : glm::length(target - position);
   }

@@ -40,6 +40,7 @@ constexpr std::string_view kViews[] = {"radiance", "albedo",   "normal",   "geom
 constexpr std::string_view kToneMaps[] = {"reinhard", "reinhard_simple", "filmic", "aces", "srgb"};
 constexpr std::string_view kFalseColors[] = {"auto", "off", "viridis", "magma"};
 constexpr std::string_view kProjections[] = {"perspective", "orthographic", "spherical"};
+constexpr std::string_view kStereo[] = {"none", "side_by_side", "top_bottom"};
 constexpr std::string_view kLenses[] = {"thin", "double_gauss", "wide_angle", "telephoto", "fisheye"};
 
 constexpr auto kImage = Invalidates::image;
@@ -244,6 +245,31 @@ const Field<Document> kRows[] = {
      AT(scene.camera.blades)},
     {{"camera.blade_rotation", FieldType::angle, -360, 360, "degrees", "Turn of the aperture's blades"},
      AT(scene.camera.blade_rotation)},
+    {{"camera.stereo", FieldType::choice, 0, 0, "",
+      "A picture for each eye, in halves of the film: the left eye's on the left, or on top", kImage,
+      kStereo},
+     AT(scene.camera.stereo)},
+    {{"camera.interocular_distance",
+      FieldType::real,
+      0,
+      1e6,
+      "scene units",
+      "Distance between the eyes; 0.065 in a scene in metres",
+      kImage,
+      {},
+      true},
+     AT(scene.camera.interocular_distance)},
+    {{"camera.convergence_distance",
+      FieldType::real,
+      0,
+      1e9,
+      "scene units",
+      "Distance at which both eyes' pictures coincide, as on the screen that shows them; 0: at infinity, "
+      "the eyes look in parallel",
+      kImage,
+      {},
+      true},
+     AT(scene.camera.convergence_distance)},
 
     {{"stop.spp", FieldType::integer, 0, 1000000000, "samples", "Samples a pixel at which to stop; 0: never",
       Invalidates::nothing},

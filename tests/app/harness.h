@@ -70,7 +70,8 @@ struct HarnessOptions {
   std::filesystem::path screenshot_folder = ".";
   std::filesystem::path preferences = {}; ///< empty: not stored
   std::function<void(const Progress&)> on_build = {};
-  std::string scene_path = {}; ///< ViewerOptions::scene_path
+  std::string scene_path = {};       ///< ViewerOptions::scene_path
+  std::filesystem::path studio = {}; ///< ThumbnailOptions::studio
 };
 
 /// One at a time: the newest context is the current one.
@@ -276,7 +277,7 @@ private:
     out.screenshot_folder = options.screenshot_folder;
     out.threads = 2;
     out.on_build = options.on_build;
-    out.thumbnails = {1, 2, 10, 0}; // few samples: the tests are not to wait
+    out.thumbnails = {1, 2, 10, 0, options.studio}; // few samples: the tests are not to wait
     out.scene_path = options.scene_path;
     std::string warning;
     out.preferences_path = options.preferences;

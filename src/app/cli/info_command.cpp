@@ -27,13 +27,25 @@ nlohmann::ordered_json camera_json(const Document& document) {
                                 {"position", vector_json(camera.position)},
                                 {"target", vector_json(camera.target)},
                                 {"up", vector_json(camera.up)}};
-  if (camera.projection == Projection::orthographic)
+  if (camera.projection == Projection::orthographic) {
     out["orthographic_height"] = number_json(camera.orthographic_height);
-  else
+  } else if (camera.has_elements()) {
+    out["lens"] = field_text(*find_setting("camera.lens"), document);
+    out["f_stop"] = number_json(camera.f_stop);
+    out["sensor_diagonal"] = number_json(camera.sensor_diagonal);
+    out["focus_distance"] = number_json(camera.effective_focus_distance());
+  } else if (camera.projection == Projection::perspective) {
     out["vertical_fov"] =
         nlohmann::ordered_json::parse(field_text(*find_setting("camera.vertical_fov"), document));
+  }
   if (camera.aspect > 0) out["aspect"] = number_json(camera.aspect);
-  if (camera.aperture_radius > 0) {
+  if (camera.stereo != Stereo::none) {
+    out["stereo"] = field_text(*find_setting("camera.stereo"), document);
+    out["interocular_distance"] = number_json(camera.interocular_distance);
+    if (camera.convergence_distance > 0)
+      out["convergence_distance"] = number_json(camera.convergence_distance);
+  }
+  if (camera.aperture_radius > 0 && !camera.has_elements()) {
     out["aperture_radius"] = number_json(camera.aperture_radius);
     out["focus_distance"] = number_json(camera.effective_focus_distance());
     if (camera.blades >= 3) out["blades"] = camera.blades;

@@ -13,11 +13,18 @@ void draw_material_thumbnail(ViewerState& state, std::size_t material, vec2 lo, 
   thumbnails.drawn.insert(material);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const unsigned texture = material < thumbnails.textures.size() ? thumbnails.textures[material] : 0;
-  if (texture == 0)
+  if (texture == 0) {
     list.AddRect({lo.x, lo.y}, {hi.x, hi.y}, ImGui::GetColorU32(ImGuiCol_Border));
-  else
+    if (material < thumbnails.problems.size() && !thumbnails.problems[material].empty()) {
+      const vec2 mark = 0.5f * (lo + hi) - 0.5f * vec2(ImGui::CalcTextSize("!").x, ImGui::GetFontSize());
+      list.AddText({mark.x, mark.y}, ImGui::GetColorU32(ImGuiCol_Text), "!");
+      if (ImGui::IsMouseHoveringRect({lo.x, lo.y}, {hi.x, hi.y}))
+        ImGui::SetTooltip("No picture of this material:\n%s", thumbnails.problems[material].c_str());
+    }
+  } else {
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), {lo.x, lo.y},
                   {hi.x, hi.y});
+  }
 }
 
 void material_part_field(Ui& ui, ViewerState& state, std::size_t material, const MaterialField& row) {

@@ -49,8 +49,10 @@ Camera turned_camera(const Camera& camera, float yaw, float pitch) {
 }
 
 float radians_per_pixel(const Camera& camera, int film_height) {
-  const auto pixels = static_cast<float>(std::max(film_height, 1));
+  const int rows = camera.stereo == Stereo::top_bottom ? film_height / 2 : film_height;
+  const auto pixels = static_cast<float>(std::max(rows, 1));
   if (camera.projection == Projection::perspective) return 2 * std::tan(0.5f * camera.vertical_fov) / pixels;
+  if (camera.projection == Projection::spherical) return kPi / pixels;
   return std::min(camera.orthographic_height / glm::length(camera.target - camera.position), kPi) / pixels;
 }
 

@@ -23,6 +23,9 @@ std::optional<std::pair<vec2, vec2>> ScreenProjection::segment(vec3 a, vec3 b) c
   const vec3 cut = glm::mix(a, b, (1.001f * near_ - depth_a) / (depth_b - depth_a));
   const auto from = point(depth_a > near_ ? a : cut), to = point(depth_b > near_ ? b : cut);
   if (!from || !to) return std::nullopt;
+  // Past the back of a view of all directions, from one edge of the picture to the other.
+  if (view_.spherical() && std::abs(from->x - to->x) > 0.5f * static_cast<float>(picture_.width))
+    return std::nullopt;
   return std::pair(*from, *to);
 }
 

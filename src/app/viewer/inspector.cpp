@@ -3,6 +3,7 @@
 #include "app/panels/bookmarks.h"
 #include "app/panels/panels.h"
 #include "app/panels/panels_probe.h"
+#include "app/platform/gl_texture.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -148,14 +149,7 @@ void Inspector::paint_focus_plane(const Camera& camera, ivec2 film) {
     if ((i % width + 1 < width && crosses(i + 1)) || (i + width < map.depth.size() && crosses(i + width)))
       texels[i] = kPlane;
   }
-  gl_.BindTexture(GL_TEXTURE_2D, texture_);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  gl_.PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, map.width, map.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                 texels.data());
+  upload_rgba8(gl_, texture_, {map.width, map.height}, texels.front().data(), GL_LINEAR, GL_NEAREST);
   painted_camera_ = camera;
   painted_depths_ = depths_;
 }

@@ -1,9 +1,12 @@
 #include "app/viewer/material_thumbnails.h"
 
+#include "app/platform/data_file.h"
 #include "app/platform/gl_texture.h"
 #include "core/error.h"
 #include "io/scene_reader.h"
 #include "session/worker_threads.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +20,10 @@ constexpr float kSide = 64; // at scale 1
 
 } // namespace
 
-MaterialThumbnails::MaterialThumbnails(const Gl& gl, std::filesystem::path studio,
-                                       const ThumbnailOptions& options, std::function<void()> wake)
-    : gl_(gl), studio_path_(std::move(studio)), options_(options), worker_(std::move(wake)) {}
+MaterialThumbnails::MaterialThumbnails(const Gl& gl, ThumbnailOptions options, std::function<void()> wake)
+    : gl_(gl), options_(std::move(options)), worker_(std::move(wake)) {
+  if (options_.studio.empty()) options_.studio = find_data_file_if_any("scenes/studio.json");
+}
 
 MaterialThumbnails::~MaterialThumbnails() {
   if (stop_) stop_->store(true, std::memory_order_relaxed);
@@ -32,6 +36,12 @@ std::shared_ptr<const std::vector<std::uint8_t>> MaterialThumbnails::finished(co
   for (const Entry& entry : entries_)
     if (entry.spp == options_.spp && entry.sample == sample) return entry.pixels;
   return nullptr;
+}
+
+std::string MaterialThumbnails::problem(const SceneDesc& scene, std::size_t material) const {
+  const MaterialSample sample = material_sample(scene, material);
+  const auto found = std::ranges::find(entries_, sample, &Entry::sample);
+  return found == entries_.end() ? std::string() : found->problem;
 }
 
 MaterialThumbnails::Entry* MaterialThumbnails::find(const MaterialSample& sample, int side) {
@@ -49,8 +59,12 @@ void MaterialThumbnails::begin_frame(ViewerState& state) {
   }
   ThumbnailState& thumbnails = state.thumbnails;
   thumbnails.textures.assign(count, 0);
+  thumbnails.problems.assign(count, "");
   for (std::size_t i = 0; i < count; ++i)
-    if (shown_[i] != nullptr) thumbnails.textures[i] = shown_[i]->texture;
+    if (shown_[i] != nullptr) {
+      thumbnails.textures[i] = shown_[i]->texture;
+      thumbnails.problems[i] = shown_[i]->problem;
+    }
   thumbnails.drawn.clear();
 }
 
@@ -90,13 +104,18 @@ void MaterialThumbnails::begin(const MaterialSample& sample, int side, int spp) 
   in_work_ = sample;
   stop_ = std::make_shared<std::atomic<bool>>(false);
   worker_.post([this, sample, side, spp, niceness = options_.niceness, stop = stop_, studio = studio_,
-                scene = scene_, path = studio_path_]() mutable -> TaskThread::Completion {
+                scene = scene_, path = options_.studio]() mutable -> TaskThread::Completion {
     WorkerThreads(1).start(niceness);
     std::shared_ptr<const std::vector<std::uint8_t>> pixels;
     bool given_up = false;
+    std::string problem;
     try {
       if (!studio) studio = std::make_shared<const Document>(read_scene(path.string()).document);
-      if (const auto document = preview_document(*studio, sample, side, spp)) {
+      const auto document = preview_document(*studio, sample, side, spp);
+      if (!document) {
+        problem =
+            fmt::format("{}: materials: none is called \"material\": give one that name", path.string());
+      } else {
         auto preview = render_preview(*document, std::move(scene), *stop);
         given_up = !preview;
         if (preview) {
@@ -104,19 +123,22 @@ void MaterialThumbnails::begin(const MaterialSample& sample, int side, int spp) 
           scene = std::move(preview->scene);
         }
       }
-    } catch (const Error&) {
-    } catch (const std::bad_alloc&) {} // its place stays empty
-    return [this, sample = std::move(sample), side, spp, studio, scene = std::move(scene), pixels, given_up] {
+    } catch (const Error& e) { problem = e.what(); } catch (const std::bad_alloc&) {
+      problem = "there is not enough memory: close other programs";
+    }
+    return [this, sample = std::move(sample), side, spp, studio, scene = std::move(scene), pixels, given_up,
+            problem = std::move(problem)] {
       studio_ = studio;
       if (!given_up) scene_ = scene; // the next frame frees it if no thumbnail is drawn any more
       stop_.reset();
-      if (!given_up) finish(sample, side, spp, pixels);
+      if (!given_up) finish(sample, side, spp, pixels, problem);
     };
   });
 }
 
 void MaterialThumbnails::finish(const MaterialSample& sample, int side, int spp,
-                                std::shared_ptr<const std::vector<std::uint8_t>> pixels) {
+                                std::shared_ptr<const std::vector<std::uint8_t>> pixels,
+                                std::string problem) {
   Entry* entry = find(sample, side);
   if (entry == nullptr) {
     entry = &entries_.emplace_back();
@@ -126,6 +148,7 @@ void MaterialThumbnails::finish(const MaterialSample& sample, int side, int spp,
   entry->used = frame_;
   entry->spp = pixels ? spp : 0;
   entry->pixels = std::move(pixels);
+  entry->problem = std::move(problem);
   if (entry->pixels) upload(*entry);
 }
 

@@ -15,6 +15,7 @@ struct ThumbnailOptions {
   int first_spp = 4, spp = 64; ///< all get the first, then all the rest
   std::size_t most = 128;      ///< are kept
   int niceness = 19; ///< the lowest priority: next to a render, some 12 % of a core; 0: that of the window
+  std::filesystem::path studio; ///< the scene that they are made in; empty: the program's own
 };
 
 /// Only the UI thread uses the members of the class. The task thread gets its values by copy (samples and the
@@ -22,10 +23,9 @@ struct ThumbnailOptions {
 /// flag that ends its render.
 class MaterialThumbnails {
 public:
-  /// The context of `gl` must be current here, in both halves of a frame and in the destructor. `studio` is
-  /// a scene, read by the task thread before the first picture.
-  MaterialThumbnails(const Gl& gl, std::filesystem::path studio, const ThumbnailOptions& options,
-                     std::function<void()> wake);
+  /// The context of `gl` must be current here, in both halves of a frame and in the destructor. The task
+  /// thread reads the studio before the first picture.
+  MaterialThumbnails(const Gl& gl, ThumbnailOptions options, std::function<void()> wake);
   ~MaterialThumbnails();
   MaterialThumbnails(const MaterialThumbnails&) = delete;
   MaterialThumbnails& operator=(const MaterialThumbnails&) = delete;
@@ -45,6 +45,8 @@ public:
   std::shared_ptr<const std::vector<std::uint8_t>> finished(const SceneDesc& scene,
                                                             std::size_t material) const;
   std::size_t begun() const { return begun_; } ///< renders
+  /// Why its picture cannot be made; empty where it can, or has not been tried.
+  std::string problem(const SceneDesc& scene, std::size_t material) const;
   std::size_t kept() const { return entries_.size(); }
   bool running() const { return worker_.pending() > 0; }
 
@@ -53,6 +55,7 @@ private:
     MaterialSample sample;
     int side = 0, spp = 0; ///< 0 samples: it cannot be made
     std::shared_ptr<const std::vector<std::uint8_t>> pixels;
+    std::string problem; ///< why it cannot be made
     GLuint texture = 0;
     std::uint64_t used = 0; ///< frame in which it was drawn last
   };
@@ -65,12 +68,11 @@ private:
   Entry* find(const MaterialSample& sample, int side);
   void begin(const MaterialSample& sample, int side, int spp);
   void finish(const MaterialSample& sample, int side, int spp,
-              std::shared_ptr<const std::vector<std::uint8_t>> pixels);
+              std::shared_ptr<const std::vector<std::uint8_t>> pixels, std::string problem);
   void upload(Entry& entry);
   void evict();
 
   const Gl& gl_;
-  std::filesystem::path studio_path_;
   ThumbnailOptions options_;
   std::shared_ptr<const Document> studio_;   ///< null before the first picture
   std::shared_ptr<const RenderScene> scene_; ///< of the newest picture; null while none is on the screen

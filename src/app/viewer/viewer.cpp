@@ -41,8 +41,7 @@ Viewer::Viewer(const Gl& gl, ViewerOptions options)
       difference_viewport_(gl), session_(make_session(options_)),
       compare_({options_.threads, options_.wake, options_.screenshot_folder}), watch_(options_.wake),
       reader_(options_.wake), writer_(options_.wake), inspector_(gl, options_.wake), lab_(options_.wake),
-      texture_viewer_(gl, options_.wake),
-      thumbnails_(gl, find_data_file_if_any("scenes/studio.json"), options_.thumbnails, options_.wake) {
+      texture_viewer_(gl, options_.wake), thumbnails_(gl, options_.thumbnails, options_.wake) {
   imgui_ = ImGui::CreateContext();
   ImGui::SetCurrentContext(imgui_);
   ImGuiIO& io = ImGui::GetIO();
@@ -161,8 +160,8 @@ bool Viewer::frame(double now, bool may_wait) {
 void Viewer::fit_film() {
   if (!state_.fit_film) return;
   FilmSettings& film = state_.document.settings.film;
-  const ivec2 size =
-      glm::clamp(fitted_film(framebuffer_, state_.document.scene.camera.aspect), ivec2(1), ivec2(16384));
+  const ivec2 size = glm::clamp(fitted_film(framebuffer_, state_.document.scene.camera.film_aspect()),
+                                ivec2(1), ivec2(16384));
   if (film.width == size.x && film.height == size.y) return;
   film.width = size.x;
   film.height = size.y;

@@ -19,7 +19,7 @@ ComparePanes Viewer::compare_panes() const {
   const ivec2 film = state_.picture ? ivec2(state_.picture->width, state_.picture->height)
                                     : glm::max(framebuffer_, ivec2(1));
   return candela::compare_panes(state_.compare, free_region(), single_picture_rect(),
-                                view_shape(film, state_.document.scene.camera.aspect));
+                                view_shape(film, state_.document.scene.camera.film_aspect()));
 }
 
 void Viewer::update_compare() {

@@ -107,7 +107,7 @@ PixelRect Viewer::single_picture_rect() const {
                      : state_.fit_film ? glm::max(framebuffer_, ivec2(1))
                                        : glm::max(ivec2(ordered.width, ordered.height), ivec2(1));
   if (!state_.fit_film)
-    return letterbox(free_region(), view_shape(film, state_.document.scene.camera.aspect));
+    return letterbox(free_region(), view_shape(film, state_.document.scene.camera.film_aspect()));
   // The film has the window's size, so that showing and hiding panels does not restart it; its centre is in
   // the centre of the free region. While the window is resized, the old picture is scaled.
   return letterbox(centered(free_region(), glm::max(framebuffer_, ivec2(1))), film);

@@ -40,7 +40,7 @@ DepthMap depth_map(const RenderScene& scene, const Document& document, int strid
     for (int x = 0; x < map.width; ++x) {
       const Ray ray = view.sight((vec2(x, y) + 0.5f) * static_cast<float>(stride));
       const auto hit = scene.geometry().accel().intersect(ray);
-      map.depth.push_back(hit ? hit->t * glm::dot(ray.direction, view.forward()) : kInfinity);
+      map.depth.push_back(hit ? view.view_depth(ray.at(hit->t)) : kInfinity);
     }
   return map;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The camera ray of a pixel's sample, for all who trace it: the image and what is gathered beside it.
 
+#include "render/camera/stereo_camera.h"
 #include "render/camera/thin_lens_camera.h"
 #include "sampling/filter.h"
 #include "sampling/sampler.h"
@@ -18,6 +19,7 @@ public:
                        : make_camera(document.scene.camera, document.settings.film.width,
                                      document.settings.film.height)),
         thin_lens_(dynamic_cast<const ThinLensCamera*>(camera_.get())),
+        stereo_(dynamic_cast<const StereoCamera*>(camera_.get())),
         uses_lens_sample_(camera_->uses_lens_sample()),
         filter_(document.settings.film.filter, document.settings.film.filter_radius) {}
 
@@ -49,7 +51,9 @@ public:
       thin_lens_->make_ray(position, lens, ray);
       return filter.weight;
     }
-    const std::optional<float> weight = camera_->generate(position, lens, ray);
+    const std::optional<float> weight =
+        stereo_ != nullptr ? stereo_->generate(stereo_->panes().is_right(vec2(pixel)), position, lens, ray)
+                           : camera_->generate(position, lens, ray);
     if (!weight) return std::nullopt;
     return filter.weight * *weight;
   }
@@ -58,6 +62,7 @@ private:
   std::shared_ptr<const CameraModel> camera_;
   /// The camera, if it is one.
   const ThinLensCamera* thin_lens_;
+  const StereoCamera* stereo_; ///< likewise
   bool uses_lens_sample_;
   PixelFilter filter_;
 };

@@ -13,19 +13,12 @@ namespace candela {
 class SphericalCamera final : public CameraModel {
 public:
   SphericalCamera(const Camera& camera, int width, int height)
-      : view_(camera, width, height), width_(width), height_(height) {}
+      : view_(all_around(camera), width, height), width_(width), height_(height) {}
 
   bool uses_lens_sample() const override { return false; }
 
   std::optional<float> generate(vec2 film, vec2, Ray& ray) const override {
-    // A filter may reach over the edges: on around the sphere, or past the pole down its other side.
-    const float phi = 2 * kPi * (film.x / static_cast<float>(width_) - 0.5f);
-    const float theta = kPi * film.y / static_cast<float>(height_);
-    const float sine = std::sin(theta);
-    ray = {view_.position(), 0,
-           glm::normalize(sine * (std::cos(phi) * view_.forward() + std::sin(phi) * view_.right()) +
-                          std::cos(theta) * view_.up()),
-           kInfinity};
+    ray = {view_.position(), 0, view_.spherical_direction(film), kInfinity};
     return 1.0f;
   }
 
@@ -37,6 +30,11 @@ public:
   }
 
 private:
+  static Camera all_around(Camera camera) {
+    camera.projection = Projection::spherical;
+    return camera;
+  }
+
   CameraView view_;
   int width_, height_;
 };

@@ -74,6 +74,26 @@ TEST_F(ViewerThumbnailsUi, AppearBesideTheMaterials) {
   hand->screenshot("thumbnails");
 }
 
+TEST_F(ViewerThumbnailsUi, SayWhyTheyCannotBeMade) {
+  HarnessOptions options;
+  options.studio = "/nowhere/studio.json";
+  hand = std::make_unique<ViewerHarness>(test_document(), options);
+  hand->wait_for_picture();
+  hand->unfold("panel.materials", "material.type");
+  hand->reveal("list.materials");
+  wait_for("nothing is said", [&] {
+    return !thumbnails().problem(hand->document().scene, 1).empty() && !thumbnails().running() &&
+           !thumbnails().waits();
+  });
+  hand->frame(3);
+  EXPECT_NE(thumbnails().problem(hand->document().scene, 1).find("/nowhere/studio.json"), std::string::npos);
+  ASSERT_GT(hand->viewer.state().thumbnails.problems.size(), 1u);
+  EXPECT_EQ(hand->viewer.state().thumbnails.problems[1], thumbnails().problem(hand->document().scene, 1));
+  const std::size_t begun = thumbnails().begun();
+  hand->frame(20);
+  EXPECT_EQ(thumbnails().begun(), begun) << "it is not tried again and again";
+}
+
 TEST_F(ViewerThumbnailsUi, AreMadeAgainAfterAnEditAndKeptAfterUndo) {
   open();
   const auto before = picture(0);

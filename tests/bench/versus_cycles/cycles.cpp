@@ -30,10 +30,58 @@ Error unknown(std::string_view element, std::string_view cause) {
   return usage_error(element, cause, "teach write_cycles_scene and cycles_render.py");
 }
 
+/// The values of our models that Cycles' nodes have; the others must be the defaults.
+std::optional<json> glass_json(const Material& m) {
+  const auto* glass = std::get_if<RoughDielectricMaterial>(&m.model);
+  if (glass == nullptr) return std::nullopt;
+  if (*glass != RoughDielectricMaterial{.ior = glass->ior,
+                                        .roughness = glass->roughness,
+                                        .energy_compensation = false} ||
+      m.emission != vec3(0))
+    throw unknown("material", "more than index and roughness of rough_dielectric");
+  return json{{"type", "glass"},
+              {"ior", glass->ior.value},
+              {"roughness", glass->roughness.value},
+              {"emission", to_json(vec3(0))}};
+}
+
+std::optional<json> principled_json(const Material& m) {
+  const auto* p = std::get_if<PrincipledMaterial>(&m.model);
+  if (p == nullptr) return std::nullopt;
+  if (*p != PrincipledMaterial{.base_color = p->base_color,
+                               .roughness = p->roughness,
+                               .metallic = p->metallic} ||
+      m.emission != vec3(0))
+    throw unknown("material", "more than colour, roughness and metallic of principled");
+  return json{{"type", "principled"},
+              {"base_color", to_json(p->base_color.value)},
+              {"roughness", p->roughness.value},
+              {"metallic", p->metallic.value},
+              {"specular", p->specular.value},
+              {"emission", to_json(vec3(0))}};
+}
+
+std::optional<json> hair_json(const Material& m) {
+  const auto* hair = std::get_if<HairMaterial>(&m.model);
+  if (hair == nullptr) return std::nullopt;
+  if (hair->parametrization != static_cast<int>(HairAbsorption::absorption) || m.emission != vec3(0))
+    throw unknown("material", "hair but by its absorption");
+  return json{{"type", "hair"},
+              {"sigma_a", to_json(hair->sigma_a.value)},
+              {"beta_m", hair->beta_m.value},
+              {"beta_n", hair->beta_n.value},
+              {"alpha", radians(hair->alpha.value)},
+              {"ior", hair->ior.value},
+              {"emission", to_json(vec3(0))}};
+}
+
 json material_json(const Material& m) {
+  if (is_textured(m) || m.opacity.value < 1) throw unknown("material", "its texture or opacity");
+  if (auto glass = glass_json(m)) return *glass;
+  if (auto principled = principled_json(m)) return *principled;
+  if (auto hair = hair_json(m)) return *hair;
   if (!std::holds_alternative<DiffuseMaterial>(m.model) && !std::holds_alternative<GgxMaterial>(m.model))
     throw unknown("material", "its type");
-  if (is_textured(m) || m.opacity.value < 1) throw unknown("material", "its texture or opacity");
   const auto* diffuse = std::get_if<DiffuseMaterial>(&m.model);
   const auto* metal = std::get_if<GgxMaterial>(&m.model);
   if (metal != nullptr && (metal->specular != vec3(1) || m.emission != vec3(0)))
@@ -63,6 +111,38 @@ json mesh_json(Mesh mesh, const mat4& world_from_object, int material, const std
   return {{"vertices", vertices}, {"triangles", triangles}, {"material", material}};
 }
 
+/// Points at the ends of the segments of uniform cubic B-splines, with their radii.
+json curves_json(const CurvesShape& shape, const mat4& world_from_object, int material,
+                 const std::string& folder, std::size_t index) {
+  const Strands& strands = *shape.strands;
+  if (world_from_object != mat4(1) || strands.basis != CurveBasis::bspline || strands.has_width_per_point() ||
+      shape.curve_form() != CurveForm::round || shape.thickness != 1)
+    throw unknown("curves", "anything but tubes of B-splines in world space, with the widths of their ends");
+  std::vector<vec3> points;
+  std::vector<float> radii;
+  std::vector<std::uint32_t> counts;
+  std::size_t first = 0;
+  for (const std::uint32_t count : strands.counts) {
+    const std::uint32_t ends = count - 2;
+    for (std::uint32_t k = 0; k < ends; ++k) {
+      const vec3* p = &strands.points[first + k];
+      points.push_back((p[0] + 4.0f * p[1] + p[2]) / 6.0f);
+      const float t = static_cast<float>(k) / static_cast<float>(ends - 1);
+      radii.push_back(0.5f * glm::mix(strands.widths[0], strands.widths[1], t));
+    }
+    counts.push_back(ends);
+    first += count;
+  }
+  const auto name = [&](std::string_view what) { return fmt::format("{}.{}", index, what); };
+  write_raw(folder + "/" + name("points"), points);
+  write_raw(folder + "/" + name("radii"), radii);
+  write_raw(folder + "/" + name("counts"), counts);
+  return {{"points", name("points")},
+          {"radii", name("radii")},
+          {"counts", name("counts")},
+          {"material", material}};
+}
+
 } // namespace
 
 std::optional<std::string> find_blender() {
@@ -86,7 +166,7 @@ void write_cycles_scene(const Document& document, const std::string& folder) {
                    {"up", to_json(camera.up)},
                    {"vertical_fov", camera.vertical_fov}};
   for (const Material& m : scene.materials) out["materials"].push_back(material_json(m));
-  out["meshes"] = out["rectangle_lamps"] = out["ball_lamps"] = json::array();
+  out["meshes"] = out["curves"] = out["rectangle_lamps"] = out["ball_lamps"] = json::array();
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const mat4& m = instance.world_from_object;
@@ -95,6 +175,8 @@ void write_cycles_scene(const Document& document, const std::string& folder) {
     if (auto mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
       if (emission != vec3(0)) throw unknown("instance", "a mesh that shines");
       out["meshes"].push_back(mesh_json(**mesh, m, index, folder, i));
+    } else if (auto curves = std::get_if<CurvesShape>(&instance.shape)) {
+      out["curves"].push_back(curves_json(*curves, m, index, folder, i));
     } else if (std::holds_alternative<RectangleShape>(instance.shape)) {
       Mesh quad;
       quad.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};

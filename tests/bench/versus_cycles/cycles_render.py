@@ -46,6 +46,28 @@ def make_material(m):
         shader.distribution = "GGX"
         shader.inputs["Color"].default_value = (*m["specular"], 1)
         shader.inputs["Roughness"].default_value = m["roughness"]  # both square it to get alpha
+    elif m["type"] == "glass":
+        shader = nodes.new("ShaderNodeBsdfGlass")
+        shader.distribution = "GGX"
+        shader.inputs["Color"].default_value = (1, 1, 1, 1)
+        shader.inputs["Roughness"].default_value = m["roughness"]
+        shader.inputs["IOR"].default_value = m["ior"]
+    elif m["type"] == "principled":
+        shader = nodes.new("ShaderNodeBsdfPrincipled")
+        shader.distribution = "GGX"
+        shader.inputs["Base Color"].default_value = (*m["base_color"], 1)
+        for ours, theirs in (("roughness", "Roughness"), ("metallic", "Metallic"), ("specular", "Specular")):
+            shader.inputs[theirs].default_value = m[ours]
+        shader.inputs["Sheen Tint"].default_value = 0
+    elif m["type"] == "hair":
+        shader = nodes.new("ShaderNodeBsdfHairPrincipled")
+        shader.parametrization = "ABSORPTION"
+        shader.inputs["Absorption Coefficient"].default_value = m["sigma_a"]
+        for ours, theirs in (("beta_m", "Roughness"), ("beta_n", "Radial Roughness"), ("alpha", "Offset"),
+                             ("ior", "IOR")):
+            shader.inputs[theirs].default_value = m[ours]
+        for name in ("Coat", "Random Color", "Random Roughness"):
+            shader.inputs[name].default_value = 0
     else:
         shader = nodes.new("ShaderNodeBsdfDiffuse")
         shader.inputs["Color"].default_value = (*m["diffuse"], 1)
@@ -67,16 +89,22 @@ def make_material(m):
     return material
 
 
-def make_mesh(m):
-    def raw(name, kind):
-        values = array.array(kind)
-        path = os.path.join(folder, m[name])
-        with open(path, "rb") as f:
-            values.fromfile(f, os.path.getsize(path) // values.itemsize)
-        return values
+def raw(name, kind):
+    values = array.array(kind)
+    path = os.path.join(folder, name)
+    with open(path, "rb") as f:
+        values.fromfile(f, os.path.getsize(path) // values.itemsize)
+    return values
 
-    vertices, corners = raw("vertices", "f"), raw("triangles", "i")
-    vertices[0::3], vertices[1::3], vertices[2::3] = vertices[2::3], vertices[0::3], vertices[1::3]  # turned()
+
+def raw_points(name):
+    points = raw(name, "f")
+    points[0::3], points[1::3], points[2::3] = points[2::3], points[0::3], points[1::3]  # turned()
+    return points
+
+
+def make_mesh(m):
+    vertices, corners = raw_points(m["vertices"]), raw(m["triangles"], "i")
     mesh = bpy.data.meshes.new("mesh")
     mesh.vertices.add(len(vertices) // 3)
     mesh.vertices.foreach_set("co", vertices)
@@ -88,6 +116,44 @@ def make_mesh(m):
     mesh.materials.append(materials[m["material"]])
     mesh.update()
     show(mesh)
+
+
+def make_curves(c):
+    # Python cannot fill hair curves in this version of Blender: a mesh of edges becomes curves by geometry nodes.
+    points, radii, counts = raw_points(c["points"]), raw(c["radii"], "f"), raw(c["counts"], "i")
+    edges, first = array.array("i"), 0
+    for count in counts:
+        for i in range(first, first + count - 1):
+            edges.extend((i, i + 1))
+        first += count
+    mesh = bpy.data.meshes.new("strands")
+    mesh.vertices.add(len(radii))
+    mesh.vertices.foreach_set("co", points)
+    mesh.edges.add(len(edges) // 2)
+    mesh.edges.foreach_set("vertices", edges)
+    mesh.attributes.new("strand_radius", "FLOAT", "POINT").data.foreach_set("value", radii)
+    mesh.update()
+    source = show(mesh, "strands")
+    source.hide_render = True
+
+    group = bpy.data.node_groups.new("strands", "GeometryNodeTree")
+    group.outputs.new("NodeSocketGeometry", "Geometry")
+    nodes, links = group.nodes, group.links
+    info, to_curve = nodes.new("GeometryNodeObjectInfo"), nodes.new("GeometryNodeMeshToCurve")
+    named, radius = nodes.new("GeometryNodeInputNamedAttribute"), nodes.new("GeometryNodeSetCurveRadius")
+    material, output = nodes.new("GeometryNodeSetMaterial"), nodes.new("NodeGroupOutput")
+    info.inputs["Object"].default_value = source
+    named.data_type = "FLOAT"
+    named.inputs["Name"].default_value = "strand_radius"
+    material.inputs["Material"].default_value = materials[c["material"]]
+    links.new(info.outputs["Geometry"], to_curve.inputs["Mesh"])
+    links.new(to_curve.outputs["Curve"], radius.inputs["Curve"])
+    links.new(next(o for o in named.outputs if o.enabled), radius.inputs["Radius"])
+    links.new(radius.outputs["Curve"], material.inputs["Geometry"])
+    links.new(material.outputs["Geometry"], output.inputs[0])
+    curves = show(bpy.data.hair_curves.new("hair"), "hair")
+    curves.modifiers.new("strands", "NODES").node_group = group
+    scene.cycles_curves.shape = "THICK"
 
 
 def make_lamp(kind, center, radiance, energy_per_radiance):
@@ -209,6 +275,8 @@ for other in [s for s in bpy.data.scenes if s != scene]:
 materials = [make_material(m) for m in description["materials"]]
 for m in description["meshes"]:
     make_mesh(m)
+for c in description["curves"]:
+    make_curves(c)
 for b in description["ball_lamps"]:
     make_ball_lamp(b)
 for b in description["rectangle_lamps"]:

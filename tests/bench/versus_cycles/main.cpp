@@ -1,7 +1,8 @@
 // The same scenes in Candela and in Blender's Cycles on the CPU: speed and noise of both, and whether they
 // have the same expectation.
 //
-//   versus_cycles_bench [--short] [--scene cornell|ball|plates] [--size N] [--spp N] [--seeds N]
+//   versus_cycles_bench [--short] [--scene cornell|ball|plates|glass|principled|hair] [--size N] [--spp N]
+//   [--seeds N]
 //                       [--threads N] [--keep FOLDER] [--cycles NAME=VALUE] [KEY=VALUE ...]
 //
 // Both get box filter, unlimited depth, no clamping, no adaptive sampling, no denoiser, the same samples and
@@ -43,9 +44,6 @@ struct Renders {
   std::vector<Image> images;
   std::vector<double> seconds;
 };
-
-/// Discs for balls (scenes.h) are the largest difference of the models.
-constexpr double kImageTolerance = 0.005, kBlockTolerance = 0.02;
 
 Options read_options(int argc, char** argv) {
   Options o;
@@ -151,8 +149,8 @@ bool compare(VersusScene scene, const std::string& blender, const std::string& f
   fmt::print("  {:<18} {:>8.2f} {:>10} {:>12.2f} {:>12.2f} {:>14} {:>11.2f}\n", "Candela / Cycles",
              x.seconds / y.seconds, "", x.msamples / y.msamples, x.relmse / y.relmse, "",
              x.efficiency / y.efficiency);
-  MeansReport means =
-      compare_means(candela_renders.images, cycles_renders.images, kImageTolerance, kBlockTolerance);
+  MeansReport means = compare_means(candela_renders.images, cycles_renders.images, scene.image_tolerance,
+                                    scene.block_tolerance);
   print_means(means);
   std::fflush(stdout);
   if (!o.keep.empty()) {
@@ -185,7 +183,12 @@ int run(const Options& o) {
   run_scene("cornell", [&] { return cornell_box(o.size); });
   run_scene("ball", [&] { return bumpy_ball(o.size, o.short_run ? 4 : 8); });
   run_scene("plates", [&] { return veach_plates(o.size); });
-  if (!any) throw usage_error("--scene " + o.scene, "there is no such scene", "cornell, ball or plates");
+  run_scene("glass", [&] { return rough_glass(o.size); });
+  run_scene("principled", [&] { return principled_balls(o.size); });
+  run_scene("hair", [&] { return furry_ball(o.size, o.short_run ? 500 : 10000); });
+  if (!any)
+    throw usage_error("--scene " + o.scene, "there is no such scene",
+                      "cornell, ball, plates, glass, principled or hair");
   return agree ? 0 : 1;
 }
 

@@ -154,4 +154,59 @@ VersusScene veach_plates(int size) {
   return {"Veach's plates", "GGX metal, four lamps", std::move(s.document), 64};
 }
 
+VersusScene rough_glass(int size) {
+  test::SceneMaker s = test::cornell_flush(size, size, 1, false);
+  Material m;
+  m.model = RoughDielectricMaterial{.roughness = 0.3f, .energy_compensation = false};
+  s.mesh(icosphere(6), s.material(m), glm::scale(glm::translate(mat4(1), vec3(278, 150, 260)), vec3(140)));
+  return {"Rough glass", "a ball of GGX glass in the Cornell box", std::move(s.document), 64};
+}
+
+VersusScene principled_balls(int size) {
+  test::SceneMaker s = test::cornell_flush(size, size, 1, false);
+  Material metal, plastic;
+  metal.model =
+      PrincipledMaterial{.base_color = vec3(0.95f, 0.7f, 0.35f), .roughness = 0.35f, .metallic = 1.0f};
+  plastic.model = PrincipledMaterial{.base_color = vec3(0.15f, 0.3f, 0.6f), .roughness = 0.3f};
+  auto ball = [&](vec3 center, const Material& m) {
+    s.mesh(icosphere(6), s.material(m), glm::scale(glm::translate(mat4(1), center), vec3(110)));
+  };
+  ball({400, 111, 330}, metal);
+  ball({160, 111, 200}, plastic);
+  return {"Principled", "metal and plastic in the Cornell box", std::move(s.document), 64};
+}
+
+VersusScene furry_ball(int size, int strands) {
+  test::SceneMaker s(size, size, 1);
+  constexpr std::uint32_t kPoints = 8; // 5 segments
+  auto hair = std::make_shared<Strands>();
+  hair->widths = {0.012f, 0.004f};
+  for (int i = 0; i < strands; ++i) {
+    // Roots in a spiral of equal areas; strands bend down and sideways as they grow.
+    const float z = 1 - (2 * static_cast<float>(i) + 1) / static_cast<float>(strands);
+    const float r = std::sqrt(1 - z * z), phi = 2.39996323f * static_cast<float>(i);
+    const vec3 root(r * std::cos(phi), z, r * std::sin(phi));
+    const std::uint64_t h = hash_combine(7, static_cast<std::uint64_t>(i));
+    const vec3 bend(to_unit_float(static_cast<std::uint32_t>(h)) - 0.5f, -0.7f,
+                    to_unit_float(static_cast<std::uint32_t>(h >> 32)) - 0.5f);
+    for (std::uint32_t k = 0; k < kPoints; ++k) {
+      const float t = (static_cast<float>(k) - 1) / (kPoints - 3); // [0, 1] between the ends
+      hair->points.push_back(root * (1 + 0.45f * t) + bend * (0.35f * t * t));
+    }
+    hair->counts.push_back(kPoints);
+  }
+  Material m;
+  m.model = HairMaterial{.parametrization = static_cast<int>(HairAbsorption::absorption),
+                         .sigma_a = vec3(0.25f, 0.45f, 0.9f)};
+  s.document.scene.instances.push_back({"", CurvesShape{std::move(hair)}, mat4(1), {s.material(m)}});
+  s.mesh(icosphere(5), s.diffuse(vec3(0.1f)), glm::scale(mat4(1), vec3(0.99f)));
+  auto panorama = std::make_shared<Panorama>();
+  panorama->image = sky_with_sun();
+  LightDesc sky;
+  sky.model = EnvironmentLightModel{.panorama = std::move(panorama)};
+  s.document.scene.lights.push_back(std::move(sky));
+  s.camera({0, 0.5f, 6}, {0, -0.05f, 0}, 32);
+  return {"Hair", fmt::format("{} strands, sky and sun", strands), std::move(s.document), 32};
+}
+
 } // namespace candela::versus

@@ -14,6 +14,8 @@ struct VersusScene {
   std::string description;
   Document document; ///< film of size x size pixels, the rest of the settings are the defaults
   int spp;           ///< of one render
+  /// Relative differences of the means that the models themselves have, as the scene's comment says.
+  double image_tolerance = 0.005, block_tolerance = 0.02;
 };
 
 /// The diffuse Cornell box of render_bench, lit by one rectangle.
@@ -37,5 +39,21 @@ VersusScene bumpy_ball(int size, int level);
 /// / (d^2 + r^2); the balls are small and distant enough to keep this below 1 %. The camera sees none of
 /// them, since Cycles' lamps are invisible.
 VersusScene veach_plates(int size);
+
+/// A flat-shaded ball of rough glass (n = 1.5, GGX alpha = 0.09, single scattering) in the Cornell box.
+///
+/// Cycles 3.4 takes the Fresnel term of the surface's normal, we that of the facet's (Walter et al. 2007).
+VersusScene rough_glass(int size);
+
+/// Two balls of the principled material in the Cornell box: metal, and plastic.
+///
+/// Both are Disney's model of 2012; Cycles weighs the specular colour by the exact Fresnel curve of the index
+/// 1.5, we by Schlick's for metals.
+VersusScene principled_balls(int size);
+
+/// A ball with `strands` strands of brown hair (Chiang et al. 2016 in both) under the panorama with a sun.
+///
+/// Cycles has curves of Catmull and Rom through points of our B-splines.
+VersusScene furry_ball(int size, int strands);
 
 } // namespace candela::versus
