@@ -17,10 +17,9 @@ struct Across {
 /// The root of f in [a, b], where f(a) < 0 < f(b): regula falsi (the Illinois variant), with a bisection
 /// wherever three steps have not halved the bracket.
 template <class F>
-double root_between(F f, double a, double fa, double b, double fb) {
-  constexpr double kTolerance = 1e-11;
+double root_between(F f, double a, double fa, double b, double fb, double tolerance = 1e-11) {
   double width = b - a;
-  for (int step = 1; step < 120 && b - a > kTolerance; ++step) {
+  for (int step = 1; step < 120 && b - a > tolerance; ++step) {
     double middle = (a * fb - b * fa) / (fb - fa);
     if (step % 3 == 0) {
       if (b - a > 0.5 * width) middle = 0.5 * (a + b);
@@ -154,6 +153,36 @@ private:
     if (gb <= 0) return b;
     return at(root_between([this](double u) { return nearing(at(u)); }, a.u, ga, b.u, gb));
   }
+  /// A point of the piece that the ray meets the ball of, if there is one; else any. Of a piece that is
+  /// simple, -D is convex and its slope is 2 G: where two of its tangents, at points about its least value,
+  /// meet above 0, all balls are missed. Most rays are told apart by the first point.
+  Point met_point(Point a, Point b) const {
+    double ga = nearing(a), gb = nearing(b);
+    if (ga >= 0) return a;
+    if (gb <= 0) return b;
+    constexpr double kNarrow = 1e-6; // the rest is for nearest_point()
+    constexpr double kBent = 0.01;   // straight pieces are bent by a thousandth of their radius
+    while (b.u - a.u > kNarrow) {
+      const double u = (a.u * gb - b.u * ga) / (gb - ga);
+      if (!(u > a.u && u < b.u)) break;
+      const Point q = at(u);
+      if (q.discriminant() >= 0) return q;
+      const double g = nearing(q);
+      if (g == 0) return q;
+      const Point& other = g < 0 ? b : a;
+      const double g_other = g < 0 ? gb : ga, miss = -q.discriminant();
+      const double meet =
+          (-other.discriminant() - miss - 2 * g_other * (other.u - q.u)) / (2 * (g - g_other)); // from q.u
+      if (miss + 2 * g * meet > kBent * (q.p.w * q.p.w + miss)) return q;
+      const double before = b.u - a.u;
+      if (g < 0)
+        a = q, ga = g;
+      else
+        b = q, gb = g;
+      if (b.u - a.u > 0.5 * before) break; // one end stays: slow
+    }
+    return nearest_point(a, b);
+  }
   bool is_closed_at(const Point& q) const {
     return (q.u == first_ && (flags_ & CurveSegment::closed_start)) ||
            (q.u == last_ && (flags_ & CurveSegment::closed_end));
@@ -175,7 +204,7 @@ private:
   }
 
   void add_tube_hit(Point a, Point b) {
-    const Point near = nearest_point(a, b);
+    const Point near = met_point(a, b);
     const double da = a.discriminant(), db = b.discriminant();
     if (!(near.discriminant() >= 0 || da >= 0 || db >= 0)) return;
     // A piece that is only almost straight may pass the ray by at two places: s begins where D is 0 between a
@@ -198,8 +227,10 @@ private:
       else
         hi = near.u, f_hi = f;
     }
+    // A root of s', so that s is off by the square of that; u becomes a float.
+    constexpr double kTolerance = 1e-8;
     const auto f = [this](double u) { return entering(at(u)); };
-    add_entry(at(root_between(f, lo, f_lo, hi, f_hi)));
+    add_entry(at(root_between(f, lo, f_lo, hi, f_hi, kTolerance)));
   }
   void add_entry(const Point& q) {
     const double d = q.discriminant();
