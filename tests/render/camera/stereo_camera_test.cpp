@@ -18,6 +18,13 @@ Camera pair(Stereo layout, Projection projection = Projection::perspective) {
   return camera;
 }
 
+std::shared_ptr<const CameraModel> eyes_of(const Camera& c, int width, int height) {
+  Camera between = c;
+  between.stereo = Stereo::none;
+  const ivec2 size = StereoPanes(c.stereo, width, height).size;
+  return std::make_shared<const StereoCamera>(c, width, height, make_camera(between, size.x, size.y));
+}
+
 Ray ray_of(const CameraModel& camera, vec2 film, vec2 u_lens = vec2(0.5f)) {
   const auto ray = camera.ray(film, u_lens);
   EXPECT_TRUE(ray);
@@ -34,7 +41,7 @@ TEST(StereoCamera, TheLeftPictureIsOnTheLeftOrOnTop) {
   for (const Stereo layout : {Stereo::side_by_side, Stereo::top_bottom}) {
     const Camera c = pair(layout);
     const CameraView view(c, 80, 60);
-    const auto camera = make_camera(c, 80, 60);
+    const auto camera = eyes_of(c, 80, 60);
     const bool beside = layout == Stereo::side_by_side;
     const Ray left = ray_of(*camera, beside ? vec2(20, 30) : vec2(40, 15));
     const Ray right = ray_of(*camera, beside ? vec2(60, 30) : vec2(40, 45));
@@ -65,7 +72,7 @@ TEST(StereoCamera, DisparityIsThatOfParallelEyes) {
       for (const vec2 film : {*left, right}) {
         const Ray sight = view.sight(film);
         EXPECT_LT(glm::length(at_depth(view, sight, depth) - point), 2e-5f * depth) << convergence;
-        const Ray ray = ray_of(*make_camera(c, kWidth, kHeight), film);
+        const Ray ray = ray_of(*eyes_of(c, kWidth, kHeight), film);
         EXPECT_LT(glm::length(ray.origin - sight.origin), 1e-6f);
         EXPECT_LT(glm::length(ray.direction - sight.direction), 1e-6f);
       }
@@ -83,7 +90,7 @@ TEST(StereoCamera, APointInFocusIsSharpForBothEyesThroughEveryLens) {
     Camera mono = c;
     mono.stereo = Stereo::none;
     const CameraView view(mono, 40, 40);
-    const auto stereo = make_camera(c, 80, 40), single = make_camera(mono, 40, 40);
+    const auto stereo = eyes_of(c, 80, 40), single = make_camera(mono, 40, 40);
     for (const vec2 u : {vec2(0.5f), vec2(0.2f, 0.6f), vec2(0.7f, 0.3f)})
       for (const bool right : {false, true}) {
         const auto expected = single->ray({15, 17}, u);
@@ -105,7 +112,7 @@ TEST(StereoCamera, AllDirectionsAreSeenByEyesOnACircleThatLookStraight) {
   Camera c = pair(Stereo::top_bottom, Projection::spherical);
   c.convergence_distance = 0;
   const CameraView view(c, 360, 360);
-  const auto camera = make_camera(c, 360, 360);
+  const auto camera = eyes_of(c, 360, 360);
   for (int x = 7; x < 360; x += 31)
     for (const int y : {31, 60, 90, 149}) {
       const Ray left = ray_of(*camera, vec2(x, y)), right = ray_of(*camera, vec2(x, y + 180));
@@ -124,7 +131,7 @@ TEST(StereoCamera, AllDirectionsAreSeenByEyesOnACircleThatLookStraight) {
     EXPECT_EQ(left.direction, right.direction);
   }
   c.convergence_distance = 4; // meet on the sphere about the camera
-  const auto toed_in = make_camera(c, 360, 360);
+  const auto toed_in = eyes_of(c, 360, 360);
   for (const int x : {0, 100, 222}) {
     const Ray left = ray_of(*toed_in, vec2(x, 80)), right = ray_of(*toed_in, vec2(x, 260));
     const vec3 meet = view.position() + 4.0f * ray_of(*camera, vec2(x, 80)).direction;
@@ -155,6 +162,18 @@ TEST(StereoCamera, FiltersDoNotMixTheEyes) {
       reached_over |= x < 20 ? beyond > 0.02f : beyond < -0.02f;
     }
   EXPECT_TRUE(reached_over) << "the filter is too narrow to show it";
+}
+
+TEST(StereoCamera, IsWhatACameraWithStereoIs) {
+  for (const Projection projection :
+       {Projection::perspective, Projection::orthographic, Projection::spherical}) {
+    const Camera c = pair(Stereo::top_bottom, projection);
+    const auto made = make_camera(c, 60, 80), expected = eyes_of(c, 60, 80);
+    for (const vec2 film : {vec2(10, 20), vec2(31, 70)}) {
+      EXPECT_EQ(ray_of(*made, film).origin, ray_of(*expected, film).origin);
+      EXPECT_EQ(ray_of(*made, film).direction, ray_of(*expected, film).direction);
+    }
+  }
 }
 
 TEST(StereoCamera, ProjectsWhatItSees) {

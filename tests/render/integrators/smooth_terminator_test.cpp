@@ -1,5 +1,6 @@
 // Light that grazes coarse smooth meshes.
 
+#include "render/integrators/smooth_terminator.h"
 #include "render/render_testing.h"
 #include "render/world/smooth_triangle.h"
 
@@ -28,6 +29,32 @@ TEST(SmoothTerminator, ParallelNormalsAreNoCurve) {
   const vec3 n = glm::normalize(vec3(0.7f, 0.3f, 0.5f));
   const SmoothTriangle t{{vec3(0, 0, 0), vec3(2, 0, 0), vec3(0, 3, 0)}, {n, n, n}, n};
   EXPECT_LT(glm::length(offset_to_smooth_surface(t, 0.2f, 0.3f, {0.4f, 0.9f, 0})), 1e-6f);
+}
+
+TEST(SmoothTerminator, PathsLeaveFromTheSphere) {
+  SceneMaker s(8, 8, 1);
+  s.mesh(sphere_mesh(8, 16, true), s.diffuse(vec3(0.5f)));
+  const auto scene = RenderScene::build(s.document);
+  const Bsdf bsdf = Diffuse{vec3(0.5f)};
+  int moved = 0;
+  for (int i = 0; i < 400; ++i) {
+    const vec3 from = 3.0f * glm::normalize(vec3(std::sin(1.7f * static_cast<float>(i)),
+                                                 std::cos(2.9f * static_cast<float>(i)), 0.4f));
+    const vec3 to =
+        0.7f * vec3(std::cos(0.9f * static_cast<float>(i)), 0.5f * std::sin(4.1f * static_cast<float>(i)), 0);
+    const Ray ray{from, 0, glm::normalize(to - from), kInfinity};
+    const auto hit = scene->geometry().accel().intersect(ray);
+    if (!hit) continue;
+    Vertex v(*scene, ray, *hit);
+    const float depth = 1 - glm::length(v.surface.position);
+    smooth_terminator(v, bsdf, scene->geometry(), *hit);
+    // Of the sphere's normals, so it leads to the sphere (TheOffsetLeadsToTheSphereOfTheNormals).
+    const float left = 1 - glm::length(v.surface.position);
+    EXPECT_LE(std::abs(left), 0.15f * depth + 1e-5f) << depth << " below";
+    EXPECT_EQ(v.light_context.position, v.surface.position);
+    moved += left != depth;
+  }
+  EXPECT_GT(moved, 100);
 }
 
 /// A unit ball in the light of a lamp to the left, or in a directional light.
