@@ -23,6 +23,12 @@ def cases():
     yield "thick tubes", (0.12, 0.12), *DIFFUSE
     yield "tapered tubes", (0.14, 0.03), *DIFFUSE
     yield "thin tubes", (0.02, 0.02), *DIFFUSE
+    for roughness in (0.3, 0.6):
+        yield f"hair {roughness}", (0.05, 0.03), {
+            "type": "hair", "parametrization": "absorption", "sigma_a": [0.25, 0.45, 0.9], "beta_m": roughness,
+            "beta_n": roughness, "alpha": 2, "ior": 1.55}, {
+            "type": "hair", "sigma_a": rgb(0.25, 0.45, 0.9), "longitudinal_roughness": roughness,
+            "azimuthal_roughness": roughness, "scale_tilt": 2.0, "int_ior": 1.55, "ext_ior": 1.0}
 
 
 def strands(radii):

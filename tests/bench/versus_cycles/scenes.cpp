@@ -159,7 +159,7 @@ VersusScene rough_glass(int size) {
   Material m;
   m.model = RoughDielectricMaterial{.roughness = 0.3f, .energy_compensation = false};
   s.mesh(icosphere(6), s.material(m), glm::scale(glm::translate(mat4(1), vec3(278, 150, 260)), vec3(140)));
-  return {"Rough glass", "a ball of GGX glass in the Cornell box", std::move(s.document), 64};
+  return {"Rough glass", "a ball of GGX glass in the Cornell box", std::move(s.document), 64, 0.015, 0.1};
 }
 
 VersusScene principled_balls(int size) {
@@ -206,7 +206,7 @@ VersusScene furry_ball(int size, int strands) {
   sky.model = EnvironmentLightModel{.panorama = std::move(panorama)};
   s.document.scene.lights.push_back(std::move(sky));
   s.camera({0, 0.5f, 6}, {0, -0.05f, 0}, 32);
-  return {"Hair", fmt::format("{} strands, sky and sun", strands), std::move(s.document), 32};
+  return {"Hair", fmt::format("{} strands, sky and sun", strands), std::move(s.document), 32, 0.03, 0.35};
 }
 
 } // namespace candela::versus
