@@ -8,6 +8,7 @@
 #include "lights/environment_light.h"
 #include "lights/goniometric_light.h"
 #include "lights/point_light.h"
+#include "lights/portal_light.h"
 #include "lights/projector_light.h"
 #include "lights/rectangle_light.h"
 #include "lights/sky_light.h"
@@ -51,7 +52,7 @@ concept LightModel = requires(const L& light, const LightSamplingContext& ctx, v
 /// its names here and below.
 using LightDescModel =
     std::variant<PointLightModel, DirectionalLightModel, ConstantLightModel, SpotLightModel,
-                 EnvironmentLightModel, ProjectorLightModel, SkyLightModel>;
+                 EnvironmentLightModel, ProjectorLightModel, SkyLightModel, PortalLightModel>;
 
 /// All lights as transport samples them, those that shapes are among them.
 using Light =

@@ -177,9 +177,11 @@ void SceneLights::add_lights(const SceneLights* previous, const Progress* progre
   const LightResources resources{
       [&](const EnvironmentLightModel& m) { return environment_map(m, previous, progress); },
       [&](const SkyParameters& parameters) { return sky(parameters, previous, progress); }};
+  portals_ = ScenePortals(source_);
   for (std::size_t i = 0; i < source_.size(); ++i) {
     if (is_black(source_[i].color * source_[i].scale)) continue;
-    for (const Light& light : make_lights(source_[i], resources)) {
+    for (Light light : make_lights(source_[i], resources)) {
+      portals_.give(light, previous != nullptr ? &previous->portals_ : nullptr, progress);
       if (light_kind(light) == LightKind::infinite)
         infinite_lights_.push_back(static_cast<std::uint32_t>(lights_.size()));
       add_light(light, layers_.of_light, i);

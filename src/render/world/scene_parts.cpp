@@ -131,7 +131,7 @@ std::size_t SceneLights::memory_bytes() const {
     if (shown.table->grid) bytes += shown.table->grid->memory_bytes();
   for (const auto& map : environment_maps_) bytes += map->memory_bytes();
   for (const KnownSky& known : skies_) bytes += known.sky->sky->image.pixels.size() * sizeof(vec3);
-  return bytes;
+  return bytes + portals_.memory_bytes();
 }
 
 } // namespace candela

@@ -8,6 +8,7 @@
 #include "render/world/emission_table.h"
 #include "render/world/emitter_texture.h"
 #include "render/world/geometry.h"
+#include "render/world/scene_portals.h"
 #include "render/world/surface_material.h"
 #include "scene/light_layers.h"
 
@@ -132,6 +133,7 @@ private:
   std::vector<std::uint32_t> infinite_lights_;
   std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
   std::vector<KnownSky> skies_;                                         ///< what environment_maps_ show
+  ScenePortals portals_;                                                ///< what lights_ point to
   LightSelection all_lights_, delta_lights_;
 };
 
