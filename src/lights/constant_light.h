@@ -34,7 +34,9 @@ struct ConstantLight {
     if (portals == nullptr) return sample_by_cosine(ctx, u);
     return portals->mixed_sample(
         ctx, u, [&](vec2 rest) { return sample_by_cosine(ctx, rest); },
-        [&](vec3 direction) { return cosine_pdf(ctx, direction); }, [&](vec3) { return radiance; });
+        [&](vec3 direction) {
+          return RadiancePdf{radiance, cosine_pdf(ctx, direction)};
+        });
   }
   float pdf(const LightSamplingContext& ctx, vec3, vec3 direction) const {
     const float own = cosine_pdf(ctx, direction);

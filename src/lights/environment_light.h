@@ -70,8 +70,10 @@ struct EnvironmentLight {
     if (portals == nullptr) return sample_map(ctx, u);
     return portals->mixed_sample(
         ctx, u, [&](vec2 rest) { return sample_map(ctx, rest); },
-        [&](vec3 direction) { return map_pdf(ctx, direction); },
-        [&](vec3 direction) { return radiance_from(direction); });
+        [&](vec3 direction) {
+          const auto found = map->lookup(direction * world_from_map, ctx.environment_density());
+          return RadiancePdf{factor * found.radiance, found.pdf};
+        });
   }
   float pdf(const LightSamplingContext& ctx, vec3, vec3 direction) const {
     const float own = map_pdf(ctx, direction);

@@ -6,18 +6,22 @@ namespace candela {
 
 namespace {
 
-/// Where in [lo, hi] an increasing function has covered this share of its way. It is linear between integers,
-/// where f(i) gives its values; `last` is the last integer at which a piece begins.
+/// The first i in [first, end] with f(i + 1) > value, or `end`: from a guess by doubling steps, then by
+/// halves.
 template <class F>
-double invert(double share, double lo, double hi, int last, F f) {
-  auto piece = [&](double at) { return std::clamp(static_cast<int>(at), 0, last); };
-  auto between = [&](double at) {
-    const int i = piece(at);
-    const double from = f(i);
-    return from + (at - i) * (f(i + 1) - from);
-  };
-  const double from = between(lo), value = from + share * (between(hi) - from);
-  int first = piece(lo), end = piece(std::ceil(hi) - 1);
+int piece_with(double value, int first, int end, int guess, F f) {
+  int step = 1;
+  if (guess == end || f(guess + 1) > value) {
+    int below = guess - 1;
+    end = guess;
+    while (below >= first && f(below + 1) > value) end = below, below -= step, step *= 2;
+    first = std::max(first, below + 1);
+  } else {
+    int above = guess + 1;
+    first = above;
+    while (above < end && !(f(above + 1) > value)) first = above + 1, above += step, step *= 2;
+    end = std::min(end, above);
+  }
   while (first < end) {
     const int middle = first + (end - first) / 2;
     if (f(middle + 1) > value)
@@ -25,9 +29,25 @@ double invert(double share, double lo, double hi, int last, F f) {
     else
       first = middle + 1;
   }
-  const double before = f(first), slope = f(first + 1) - before;
-  const double at = slope > 0 ? first + (value - before) / slope : lo;
-  return std::clamp(at, std::max(lo, static_cast<double>(first)), std::min(hi, first + 1.0));
+  return end;
+}
+
+/// Where in [lo, hi] an increasing function has covered this share of its way. It is linear between integers,
+/// where f(i) gives its values; `last` is the last integer at which a piece begins. The search begins where
+/// the place would be if it were linear throughout: surroundings are smooth, but for a few lamps.
+template <class F>
+double invert(double share, double lo, double hi, int last, F f) {
+  auto piece = [&](double at) { return std::clamp(static_cast<int>(at), 0, last); };
+  const int first = piece(lo), end = piece(hi);
+  auto between = [&](double at, int i) {
+    const double from = f(i);
+    return from + (at - i) * (f(i + 1) - from);
+  };
+  const double from = between(lo, first), value = from + share * (between(hi, end) - from);
+  const int i = piece_with(value, first, end, piece(lo + share * (hi - lo)), f);
+  const double before = f(i), slope = f(i + 1) - before;
+  const double at = slope > 0 ? i + (value - before) / slope : lo;
+  return std::clamp(at, std::max(lo, static_cast<double>(i)), std::min(hi, i + 1.0));
 }
 
 } // namespace
@@ -89,7 +109,7 @@ PortalChart::Window PortalChart::window(glm::dvec2 lo, glm::dvec2 hi) const {
   return w;
 }
 
-vec3 PortalChart::sample(const Window& w, vec2 u) const {
+PortalChart::Sample PortalChart::sample(const Window& w, vec2 u) const {
   // A column by its sum over the window's rows.
   const int top = index(w.lo.y), bottom = index(w.hi.y);
   const double f_top = w.lo.y - top, f_bottom = w.hi.y - bottom;
@@ -107,17 +127,21 @@ vec3 PortalChart::sample(const Window& w, vec2 u) const {
   // Not so near to the border that rounding leads across it.
   const glm::dvec2 border = glm::min(glm::dvec2(1e-4), 0.25 * (w.hi - w.lo));
   const glm::dvec2 at = glm::clamp(glm::dvec2(x, y), w.lo + border, w.hi - border);
-  return direction(tangent_of_cell(at.x), tangent_of_cell(at.y));
+  const double tx = tangent_of_cell(at.x), ty = tangent_of_cell(at.y);
+  return {direction(tx, ty), place_at(tx, ty)};
+}
+
+PortalChart::Place PortalChart::place_at(double tx, double ty) const {
+  const glm::dvec2 cell(cell_of_tangent(tx), cell_of_tangent(ty));
+  const auto at = static_cast<std::size_t>(index(cell.y) * side_ + index(cell.x));
+  return {cell, static_cast<double>(cells_[at]) / steradians(tx, ty)};
 }
 
 std::optional<PortalChart::Place> PortalChart::place(vec3 d) const {
   const auto z = static_cast<double>(glm::dot(d, axes_.outwards));
   if (!(z > 0)) return std::nullopt;
-  const double tx = static_cast<double>(glm::dot(d, axes_.x)) / z,
-               ty = static_cast<double>(glm::dot(d, axes_.y)) / z;
-  const glm::dvec2 cell(cell_of_tangent(tx), cell_of_tangent(ty));
-  const auto at = static_cast<std::size_t>(index(cell.y) * side_ + index(cell.x));
-  return Place{cell, static_cast<double>(cells_[at]) / steradians(tx, ty)};
+  return place_at(static_cast<double>(glm::dot(d, axes_.x)) / z,
+                  static_cast<double>(glm::dot(d, axes_.y)) / z);
 }
 
 } // namespace candela

@@ -36,20 +36,24 @@ public:
 
   /// A rectangle of the chart, in cells, and what it sends.
   struct Window {
-    glm::dvec2 lo{0}, hi{0};
+    glm::dvec2 lo, hi;
     double sum = 0; ///< luminance over its solid angle; 0 where it is too small, or dark
   };
   /// Of the directions (x, y, 1) between lo and hi.
   Window window(glm::dvec2 lo, glm::dvec2 hi) const;
-  /// A unit direction in the window, in proportion to the luminance of the cells; u in [0, 1)^2. The window
-  /// has a sum.
-  vec3 sample(const Window& window, vec2 u) const;
 
   /// Where a direction is, and the luminance as sample() knows it: constant over a cell of the chart.
   struct Place {
     glm::dvec2 cell;
     double luminance;
   };
+  /// A unit direction in the window, in proportion to the luminance of the cells, and its place; u in
+  /// [0, 1)^2. The window has a sum.
+  struct Sample {
+    vec3 direction;
+    Place place;
+  };
+  Sample sample(const Window& window, vec2 u) const;
   /// Nothing for directions that do not lead outwards.
   std::optional<Place> place(vec3 direction) const;
   static bool contains(const Window& w, const Place& at) {
@@ -61,6 +65,7 @@ private:
   double cell_of_tangent(double t) const { return half_side_ * (t / (1 + std::abs(t)) + 1); }
   double tangent_of_cell(double cell) const;
   double steradians(double tx, double ty) const;
+  Place place_at(double tx, double ty) const;
   int index(double cell) const { return std::clamp(static_cast<int>(cell), 0, side_ - 1); }
   vec3 direction(double tx, double ty) const {
     return glm::normalize(static_cast<float>(tx) * axes_.x + static_cast<float>(ty) * axes_.y +

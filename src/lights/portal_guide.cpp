@@ -46,27 +46,20 @@ PortalGuide::PortalGuide(std::span<const PortalRectangle> portals,
 PortalGuide::View PortalGuide::seen_from(const LightSamplingContext& ctx) const {
   View view;
   for (std::size_t i = 0; i < portals_.size(); ++i) {
+    const float cosine = mean_cosine(portals_[i], ctx);
+    if (!(cosine > 0)) continue;
     PortalChart::Window& w = view.windows[i];
     w = window_of(portals_[i], *charts_[i], ctx.position);
-    if (!(w.sum > 0)) continue;
-    view.facing[i] = mean_cosine(portals_[i], ctx);
-    w.sum *= static_cast<double>(view.facing[i]);
+    view.facing[i] = cosine;
+    w.sum *= static_cast<double>(cosine);
     view.sum += w.sum;
   }
   return view;
 }
 
-vec3 PortalGuide::sample(const View& view, vec2 u) const {
-  double left = static_cast<double>(u.x) * view.sum;
-  std::size_t chosen = 0;
-  while (chosen + 1 < portals_.size() && !(left < view.windows[chosen].sum))
-    left -= view.windows[chosen++].sum;
-  while (!(view.windows[chosen].sum > 0)) --chosen; // rounding led behind the last one
-  const double share = std::min(left / view.windows[chosen].sum, static_cast<double>(kOneMinusEpsilon));
-  return charts_[chosen]->sample(view.windows[chosen], {static_cast<float>(share), u.y});
-}
-
-float PortalGuide::pdf(const View& view, vec3 direction) const {
+/// place(chart) is that of the direction in question.
+template <class Place>
+float PortalGuide::pdf_by(const View& view, Place place) const {
   double sum = 0;
   const PortalChart* chart = nullptr;
   std::optional<PortalChart::Place> at;
@@ -74,12 +67,30 @@ float PortalGuide::pdf(const View& view, vec3 direction) const {
     if (!(view.windows[i].sum > 0)) continue;
     if (charts_[i].get() != chart) {
       chart = charts_[i].get();
-      at = chart->place(direction);
+      at = place(*chart);
     }
     if (at && PortalChart::contains(view.windows[i], *at))
       sum += static_cast<double>(view.facing[i]) * at->luminance;
   }
   return static_cast<float>(sum / view.sum);
+}
+
+PortalGuide::Sample PortalGuide::sample(const View& view, vec2 u) const {
+  double left = static_cast<double>(u.x) * view.sum;
+  std::size_t chosen = 0;
+  while (chosen + 1 < portals_.size() && !(left < view.windows[chosen].sum))
+    left -= view.windows[chosen++].sum;
+  while (!(view.windows[chosen].sum > 0)) --chosen; // rounding led behind the last one
+  const double share = std::min(left / view.windows[chosen].sum, static_cast<double>(kOneMinusEpsilon));
+  const auto s = charts_[chosen]->sample(view.windows[chosen], {static_cast<float>(share), u.y});
+  auto place = [&](const PortalChart& chart) {
+    return &chart == charts_[chosen].get() ? std::optional(s.place) : chart.place(s.direction);
+  };
+  return {s.direction, pdf_by(view, place)};
+}
+
+float PortalGuide::pdf(const View& view, vec3 direction) const {
+  return pdf_by(view, [&](const PortalChart& chart) { return chart.place(direction); });
 }
 
 } // namespace candela

@@ -41,19 +41,23 @@ public:
     double sum = 0; ///< of theirs, weighted
   };
   View seen_from(const LightSamplingContext& ctx) const;
-  /// A unit direction through one of them; the view has a sum. u in [0, 1)^2.
-  vec3 sample(const View& view, vec2 u) const;
-  /// Density of sample() in 1/sr; the view has a sum.
+  /// A unit direction through one of them, and its density in 1/sr; the view has a sum. u in [0, 1)^2.
+  struct Sample {
+    vec3 direction;
+    float pdf;
+  };
+  Sample sample(const View& view, vec2 u) const;
+  /// Density of sample(); the view has a sum.
   float pdf(const View& view, vec3 direction) const;
   /// Density of the mixture, 1/sr, given the light's own.
   float mixed_pdf(const View& view, vec3 direction, float own) const {
     return view.sum > 0 ? kOwnShare * own + (1 - kOwnShare) * pdf(view, direction) : own;
   }
-  /// A sample of the mixture: own_sample(u) is a std::optional<LightSample>, own_pdf(direction) its density,
-  /// radiance(direction) what arrives.
-  template <class OwnSample, class OwnPdf, class Radiance>
+  /// A sample of the mixture: own_sample(u) is a std::optional<LightSample>, found(direction) what arrives
+  /// from there and the light's own density, a RadiancePdf.
+  template <class OwnSample, class Found>
   std::optional<LightSample> mixed_sample(const LightSamplingContext& ctx, vec2 u, OwnSample own_sample,
-                                          OwnPdf own_pdf, Radiance radiance) const {
+                                          Found found) const {
     const View view = seen_from(ctx);
     if (!(view.sum > 0)) return own_sample(u);
     if (u.x < kOwnShare) {
@@ -61,17 +65,21 @@ public:
       if (own) own->pdf = mixed_pdf(view, own->direction, own->pdf);
       return own;
     }
+    const Sample through =
+        sample(view, {std::min((u.x - kOwnShare) / (1 - kOwnShare), kOneMinusEpsilon), u.y});
+    const RadiancePdf there = found(through.direction);
     LightSample s;
-    s.direction = sample(view, {std::min((u.x - kOwnShare) / (1 - kOwnShare), kOneMinusEpsilon), u.y});
-    const float density = pdf(view, s.direction);
-    if (!(density > 0)) return std::nullopt; // rounding has led past the portal
-    s.radiance = radiance(s.direction);
-    s.pdf = kOwnShare * own_pdf(s.direction) + (1 - kOwnShare) * density;
+    s.direction = through.direction;
+    s.radiance = there.radiance;
+    s.pdf = kOwnShare * there.pdf + (1 - kOwnShare) * through.pdf;
     s.infinite = true;
     return s;
   }
 
 private:
+  template <class Place>
+  float pdf_by(const View& view, Place place) const;
+
   /// Those of one chart lie side by side.
   std::vector<PortalRectangle> portals_;
   std::vector<std::shared_ptr<const PortalChart>> charts_; ///< parallel to them

@@ -8,20 +8,20 @@ namespace candela {
 
 namespace {
 
-/// Cells along a chart's side, and looks along a cell's: about as many as the panorama has texels, within
-/// limits, for a chart takes time to make, and the processor's cache should hold it. A constant light is as
-/// even as anything.
+/// Cells along a chart's side, and looks along a cell's: about half as many as the panorama has texels,
+/// within limits, for a chart takes time to make, and the processor's cache should hold it. A constant light
+/// is as even as anything.
 struct Resolution {
   int side, lookups;
 };
 Resolution resolution(const EnvironmentMap* map) {
-  constexpr int kLeast = 64, kMost = 512, kMostLookups = 4;
-  if (map == nullptr) return {kLeast, 2};
-  // Half a sphere's texels.
+  constexpr int kLeast = 64, kMost = 256, kLookups = 2, kMostLookups = 8;
+  if (map == nullptr) return {kLeast, kLookups};
+  // Along the side of half a sphere.
   const auto texels =
       static_cast<int>(std::sqrt(0.5 * static_cast<double>(map->panorama()->image.pixels.size())));
-  const int side = std::clamp(texels, kLeast, kMost);
-  return {side, std::clamp((texels + side - 1) / side, 2, kMostLookups)};
+  const int side = std::clamp(texels / kLookups, kLeast, kMost);
+  return {side, std::clamp((texels + side - 1) / side, kLookups, kMostLookups)};
 }
 
 } // namespace
