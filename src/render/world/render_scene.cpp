@@ -109,8 +109,8 @@ void SceneLights::add_emitters(const SceneLights* previous, const Progress* prog
   for (const SurfaceMaterial& m : materials_) any |= m.emissive;
   if (!any) return;
   light_of_emitter_.reset(geometry_->emitter_count());
-  auto table = [&](const SurfaceMaterial& m, bool mirrored) -> const EmissionTable& {
-    return emission_table(m, mirrored, previous, progress);
+  auto table = [&](const SurfaceMaterial& m, EmissionChart chart) -> const EmissionTable& {
+    return emission_table(m, chart, previous, progress);
   };
   geometry_->surfaces().for_each([&](const auto& kind, std::uint64_t first) {
     auto emits = [&](std::uint32_t material) { return materials_[material].emissive; };
@@ -125,10 +125,10 @@ void SceneLights::add_emitters(const SceneLights* previous, const Progress* prog
   });
 }
 
-const EmissionTable& SceneLights::emission_table(const SurfaceMaterial& material, bool mirrored,
+const EmissionTable& SceneLights::emission_table(const SurfaceMaterial& material, EmissionChart chart,
                                                  const SceneLights* previous, const Progress* progress) {
-  auto fits = [&](const RectangleEmission& known) {
-    return known.mirrored == mirrored && emits_alike(*known.material, material);
+  auto fits = [&](const ShownEmission& known) {
+    return known.chart == chart && emits_alike(*known.material, material);
   };
   auto own = std::ranges::find_if(emission_tables_, fits);
   if (own != emission_tables_.end()) return *own->table;
@@ -137,8 +137,8 @@ const EmissionTable& SceneLights::emission_table(const SurfaceMaterial& material
     auto known = std::ranges::find_if(previous->emission_tables_, fits);
     if (known != previous->emission_tables_.end()) table = known->table;
   }
-  if (!table) table = std::make_shared<const EmissionTable>(tabulate_emission(material, mirrored, progress));
-  emission_tables_.push_back({&material, mirrored, table});
+  if (!table) table = std::make_shared<const EmissionTable>(tabulate_emission(material, chart, progress));
+  emission_tables_.push_back({&material, chart, table});
   return *table;
 }
 
