@@ -3,6 +3,7 @@
 
 #include "core/variant.h"
 #include "lights/constant_light.h"
+#include "lights/curve_light.h"
 #include "lights/directional_light.h"
 #include "lights/disc_light.h"
 #include "lights/environment_light.h"
@@ -55,9 +56,9 @@ using LightDescModel =
                  EnvironmentLightModel, ProjectorLightModel, SkyLightModel, PortalLightModel>;
 
 /// All lights as transport samples them, those that shapes are among them.
-using Light =
-    std::variant<RectangleLight, TriangleLight, SphereLight, DiscLight, PointLight, DirectionalLight,
-                 ConstantLight, SpotLight, EnvironmentLight, GoniometricLight, ProjectorLight, SunLight>;
+using Light = std::variant<RectangleLight, TriangleLight, SphereLight, DiscLight, PointLight,
+                           DirectionalLight, ConstantLight, SpotLight, EnvironmentLight, GoniometricLight,
+                           ProjectorLight, SunLight, CurveLight>;
 
 namespace detail {
 

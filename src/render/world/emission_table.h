@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace candela {
 
@@ -63,6 +64,10 @@ public:
   /// The arguments as those of mean_radiance, mean_radiance_of_triangle, tabulate_emission.
   LightRadiance over(const std::function<vec2(vec2)>& uv_at) const {
     return textured() ? with_mean(mean_radiance(material_, uv_at)) : even();
+  }
+  /// Nothing where a texture gives the radiance, or light passes through.
+  std::optional<LightRadiance> even_and_opaque() const {
+    return textured() || material_.opacity < 1 ? std::nullopt : std::optional(even());
   }
   LightRadiance over_triangle(const std::function<vec2(vec2)>& uv_at) const {
     return textured() ? with_mean(mean_radiance_of_triangle(material_, uv_at)) : even();

@@ -117,7 +117,13 @@ void SceneLights::add_emitters(const SceneLights* previous, const Progress* prog
     auto add = [&](std::uint64_t number, std::uint32_t count, std::uint32_t material, auto make) {
       const SurfaceMaterial& m = materials_[material];
       const std::uint64_t emitter = first + number;
-      add_emitter(emitter, material, make(EmitterRadiance(m, table)));
+      const auto made = make(EmitterRadiance(m, table));
+      if constexpr (requires { made.has_value(); }) { // a light, or nothing that can be sampled
+        if (made) add_emitter(emitter, material, *made);
+        return;
+      } else {
+        add_emitter(emitter, material, made);
+      }
       for (std::uint32_t i = 1; i < count; ++i)
         light_of_emitter_.set(emitter + i, light_of_emitter_[emitter]);
     };
