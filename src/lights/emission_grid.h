@@ -30,6 +30,13 @@ public:
   }
   /// Variance of the luminance over the square of its mean.
   float contrast() const { return contrast_; }
+  /// Seen from far away, of the second moment of an even sample the picture makes this share: nothing if it
+  /// is even, nearly all if it is mostly black. So much of a mixture of both samples by the grid; the rest
+  /// keeps the weights bounded, for no place is left to the grid alone.
+  float share_of_samples() const {
+    constexpr float kMost = 0.9f;
+    return std::min(contrast_ / (1 + contrast_), kMost);
+  }
   std::size_t memory_bytes() const { return cells_.memory_bytes() + pdf_.size() * sizeof(float); }
 
 private:

@@ -7,6 +7,7 @@
 #include "lights/light_rows.h"
 #include "lights/light_sample.h"
 #include "lights/panorama.h"
+#include "lights/portal_guide.h"
 
 #include <memory>
 
@@ -49,6 +50,7 @@ struct EnvironmentLight {
   const EnvironmentMap* map = nullptr;
   mat3 world_from_map{1.0f}; ///< a rotation
   Spectrum factor{1};
+  const PortalGuide* portals = nullptr; ///< through which it comes, if the scene has any. Somebody else's
 
   static constexpr std::string_view kName = "environment";
   static constexpr LightKind kind = LightKind::infinite;
@@ -60,9 +62,33 @@ struct EnvironmentLight {
   /// radiance_from() and pdf() at once.
   RadiancePdf radiance_pdf(const LightSamplingContext& ctx, const EnvironmentMap::Place& at) const {
     const auto found = map->lookup(at, ctx.environment_density());
-    return {factor * found.radiance, found.pdf};
+    if (portals == nullptr) return {factor * found.radiance, found.pdf};
+    return {factor * found.radiance,
+            portals->mixed_pdf(portals->seen_from(ctx), world_from_map * at.direction, found.pdf)};
   }
   std::optional<LightSample> sample(const LightSamplingContext& ctx, vec2 u) const {
+    if (portals == nullptr) return sample_map(ctx, u);
+    return portals->mixed_sample(
+        ctx, u, [&](vec2 rest) { return sample_map(ctx, rest); },
+        [&](vec3 direction) {
+          const auto found = map->lookup(direction * world_from_map, ctx.environment_density());
+          return RadiancePdf{factor * found.radiance, found.pdf};
+        });
+  }
+  float pdf(const LightSamplingContext& ctx, vec3, vec3 direction) const {
+    const float own = map_pdf(ctx, direction);
+    return portals == nullptr ? own : portals->mixed_pdf(portals->seen_from(ctx), direction, own);
+  }
+  float power(float scene_radius) const {
+    return luminance(factor) * map->total_luminance() * (kPi * sqr(scene_radius));
+  }
+  std::optional<LightBounds> bounds() const { return std::nullopt; }
+  double mean_irradiance(EnvironmentDensity density) const {
+    return 0.25 * static_cast<double>(luminance(factor) * map->total_luminance(density));
+  }
+
+private:
+  std::optional<LightSample> sample_map(const LightSamplingContext& ctx, vec2 u) const {
     auto found = map->sample(u, ctx.environment_density());
     if (!found) return std::nullopt;
     LightSample s;
@@ -72,15 +98,8 @@ struct EnvironmentLight {
     s.infinite = true;
     return s;
   }
-  float pdf(const LightSamplingContext& ctx, vec3, vec3 direction) const {
+  float map_pdf(const LightSamplingContext& ctx, vec3 direction) const {
     return map->pdf(direction * world_from_map, ctx.environment_density());
-  }
-  float power(float scene_radius) const {
-    return luminance(factor) * map->total_luminance() * (kPi * sqr(scene_radius));
-  }
-  std::optional<LightBounds> bounds() const { return std::nullopt; }
-  double mean_irradiance(EnvironmentDensity density) const {
-    return 0.25 * static_cast<double>(luminance(factor) * map->total_luminance(density));
   }
 };
 

@@ -3,11 +3,13 @@
 
 #include "core/variant.h"
 #include "lights/constant_light.h"
+#include "lights/curve_light.h"
 #include "lights/directional_light.h"
 #include "lights/disc_light.h"
 #include "lights/environment_light.h"
 #include "lights/goniometric_light.h"
 #include "lights/point_light.h"
+#include "lights/portal_light.h"
 #include "lights/projector_light.h"
 #include "lights/rectangle_light.h"
 #include "lights/sky_light.h"
@@ -51,12 +53,12 @@ concept LightModel = requires(const L& light, const LightSamplingContext& ctx, v
 /// its names here and below.
 using LightDescModel =
     std::variant<PointLightModel, DirectionalLightModel, ConstantLightModel, SpotLightModel,
-                 EnvironmentLightModel, ProjectorLightModel, SkyLightModel>;
+                 EnvironmentLightModel, ProjectorLightModel, SkyLightModel, PortalLightModel>;
 
 /// All lights as transport samples them, those that shapes are among them.
-using Light =
-    std::variant<RectangleLight, TriangleLight, SphereLight, DiscLight, PointLight, DirectionalLight,
-                 ConstantLight, SpotLight, EnvironmentLight, GoniometricLight, ProjectorLight, SunLight>;
+using Light = std::variant<RectangleLight, TriangleLight, SphereLight, DiscLight, PointLight,
+                           DirectionalLight, ConstantLight, SpotLight, EnvironmentLight, GoniometricLight,
+                           ProjectorLight, SunLight, CurveLight>;
 
 namespace detail {
 

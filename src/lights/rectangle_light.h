@@ -29,7 +29,7 @@ struct RectangleLight {
       : corner(c), edge_x(x), edge_y(y), normal(glm::normalize(glm::cross(x, y))), axis_x(glm::normalize(x)),
         axis_y(glm::normalize(y)), length_x(glm::length(x)), length_y(glm::length(y)),
         point_error(flat_point_error(c, x, y)), emission(mean_radiance), two_sided(both_sides),
-        picture(shown), picture_share(shown != nullptr ? share_of(shown->contrast()) : 0) {}
+        picture(shown), picture_share(shown != nullptr ? shown->share_of_samples() : 0) {}
 
   float area() const { return length_x * length_y; }
   vec3 at(float x, float y) const { return corner + x * axis_x + y * axis_y; }
@@ -73,12 +73,6 @@ struct RectangleLight {
   }
 
 private:
-  /// Seen from far away, of the second moment of a sample in solid angle the picture makes this share:
-  /// nothing if it is even, nearly all if it is mostly black.
-  static float share_of(float contrast) {
-    constexpr float kMost = 0.9f; // no place is left to the grid alone
-    return std::min(contrast / (1 + contrast), kMost);
-  }
   /// The nearer the light, the more do distance and cosine differ over it, which samples in solid angle know:
   /// none is by the picture where the light covers a hemisphere.
   float share_seen(float solid_angle) const { return picture_share * (1 - solid_angle / (2 * kPi)); }

@@ -273,6 +273,41 @@ inline Document coarse_balls_scene() {
   return s.document;
 }
 
+/// Glowing tubes and ribbons, with a corner and without one, over a glossy floor; one is checkered, and one
+/// lets light through.
+inline Document glowing_curves_scene() {
+  SceneMaker s(8, 8, 1);
+  s.document.scene.textures.push_back(
+      std::make_shared<const Texture>(Texture{"", CheckerTexture{vec3(1), vec3(0.2f), 3}}));
+  s.rectangle({0, 0, 0}, {0, 0, 3}, {3, 0, 0},
+              s.material(strategy_material("phong", {0.3f, 0.4f, 0.2f}, {0.5f, 0.4f, 0.6f})));
+  auto add = [&](CurveForm form, vec3 at, Material m) {
+    Strands strands;
+    strands.basis = CurveBasis::bezier;
+    for (vec3 p : {vec3(0, 0, 0), vec3(0.2f, 0.5f, 0), vec3(0.5f, 0.6f, 0.3f), vec3(0.7f, 0.6f, 0.3f),
+                   vec3(0.9f, 0.6f, 0.3f), vec3(1, 0.9f, 0), vec3(0.8f, 1.1f, 0), vec3(1.1f, 0.9f, 0.4f),
+                   vec3(1.4f, 0.6f, 0.4f), vec3(1.6f, 0.7f, 0)})
+      strands.points.push_back(at + p);
+    strands.counts = {10};
+    strands.widths = {0.3f, 0.2f};
+    CurvesShape shape;
+    shape.strands = std::make_shared<const Strands>(std::move(strands));
+    shape.form = static_cast<int>(form);
+    s.document.scene.instances.push_back({"", shape, mat4(1), {s.material(m)}});
+  };
+  Material lamp = strategy_material("diffuse", vec3(0.4f), vec3(0));
+  lamp.emission = vec3{3, 2, 4};
+  add(CurveForm::round, {-1.8f, 0.3f, 0}, lamp);
+  add(CurveForm::ribbon, {0.2f, 0.3f, 0}, lamp);
+  Material veil = lamp;
+  veil.opacity = 0.5f;
+  add(CurveForm::round, {-0.7f, 0.4f, -1}, veil);
+  lamp.emission.use.texture = 0;
+  add(CurveForm::round, {-0.7f, 0.4f, 1}, lamp);
+  s.camera({0, 3, 5}, {0, 0.5f, 0}, 40);
+  return s.document;
+}
+
 inline std::vector<NamedScene> strategy_scenes() {
   Document cornell = cornell_flush(8, 8, 1, true).document;
   return {{"Cornell box with blocks", cornell},
@@ -286,7 +321,8 @@ inline std::vector<NamedScene> strategy_scenes() {
           {"textured lamps", textured_lamps_scene()},
           {"filtered textures", filtered_textures_scene()},
           {"shaped lights", shaped_lights_scene()},
-          {"coarse smooth balls", coarse_balls_scene()}};
+          {"coarse smooth balls", coarse_balls_scene()},
+          {"glowing curves", glowing_curves_scene()}};
 }
 
 } // namespace candela::test

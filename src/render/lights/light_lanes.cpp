@@ -66,13 +66,13 @@ struct SphereLanes {
   }
 }
 
-/// The same for spheres, those seen from inside apart.
+/// The same for spheres, those seen from inside and those with pictures apart.
 class SphereQueue {
 public:
   void push(const LightQuery& query, LightSampleLanes& samples) {
     const SphereLight& light = std::get<SphereLight>(*query.light);
     vec3 to_center = light.center - query.context->position;
-    if (!(length_squared(to_center) > sqr(light.radius))) { // from inside
+    if (!(length_squared(to_center) > sqr(light.radius)) || light.picture != nullptr) {
       samples.set(query.lane, light.sample(*query.context, query.u));
       return;
     }

@@ -216,6 +216,85 @@ SurfaceTangents CurveSurfaces::tangents(const Ray& ray, const Hit& hit) const {
   return {vec3(along / share), vec3(around * (2 * p.radius / cosine)), true};
 }
 
+std::optional<CurvePieces::Meeting> CurveSurfaces::meet(std::uint32_t piece, vec3 from,
+                                                        vec3 direction) const {
+  const auto& points = segments[piece].points;
+  const Ray ray{from, 0, direction, kInfinity};
+  // A point on the piece itself, whose rays begin beside it, does not meet it where it lies.
+  const float reach =
+      max_component(glm::max(glm::abs(from), glm::abs(vec3(points[0])))) + std::max(points[0].w, points[3].w);
+  const accel_detail::CurveRay curve_ray(ray, gamma_bound(32) * reach, kInfinity);
+  Hit hit;
+  hit.kind = PrimitiveKind::curve;
+  auto intersect = [&](std::uint32_t other) {
+    const auto met = accel_detail::intersect_curve(segments[other], curve_ray);
+    if (met && met->t < hit.t) hit.primitive = other, hit.t = met->t, hit.u = met->u;
+  };
+  hit.t = kInfinity;
+  intersect(piece);
+  if (!(hit.t < kInfinity)) return std::nullopt;
+  // Near a joint, the place is that of whichever the ray meets first, as if both were one surface.
+  constexpr float kJoint = 1 / 16.0f;
+  const float u = hit.u;
+  if (u < kJoint && parts[piece].u_begin > 0) intersect(piece - 1);
+  if (u > 1 - kJoint && parts[piece].u_end < 1) intersect(piece + 1);
+  if (owner(hit.primitive, hit.u) != piece) return std::nullopt;
+  SurfaceInteraction s;
+  set_surface(ray, hit, s);
+  return Meeting{s.position, s.position_error, s.geometric_normal};
+}
+
+std::optional<CurveLight> CurveSurfaces::light_of_piece(std::size_t piece,
+                                                        const EmitterRadiance& radiance) const {
+  const auto sent = radiance.even_and_opaque();
+  if (!sent || Primitives::bounds(input(), piece).empty()) return std::nullopt;
+  const auto& [points, flags] = segments[piece];
+  // At corners of ribbons, the disc of the one may lie before the middle of the other.
+  const bool from_corner = parts[piece].u_begin > 0 && (flags & CurveSegment::closed_start) != 0,
+             to_corner = parts[piece].u_end < 1 && (flags & CurveSegment::closed_end) != 0;
+  if ((flags & CurveSegment::ribbon) != 0 && (from_corner || to_corner)) return std::nullopt;
+  const vec3 chord = vec3(points[3] - points[0]), tangent = vec3(points[1] - points[0]);
+  CurveLight light;
+  if (length_squared(chord) > 0)
+    light.axis = glm::normalize(chord);
+  else if (length_squared(tangent) > 0)
+    light.axis = glm::normalize(tangent);
+  // A cylinder about the control points of the curve in parts, which are much nearer to it than its own.
+  std::vector<vec4> near;
+  constexpr int kParts = 8;
+  float width = 0, length = 0;
+  for (int k = 0; k < kParts; ++k) {
+    const double third = 1.0 / (3 * kParts);
+    const CurvePoint from = curve_point(points, static_cast<double>(k) / kParts),
+                     to = curve_point(points, static_cast<double>(k + 1) / kParts);
+    for (const glm::dvec4& p : {from.p, from.p + third * from.d, to.p - third * to.d, to.p})
+      near.emplace_back(vec3(p - glm::dvec4(points[0])), std::max(p.w, 0.0));
+    width += static_cast<float>(std::max(from.p.w + to.p.w, 0.0)) / kParts;
+    length += static_cast<float>(glm::length(glm::dvec3(to.p - from.p)));
+  }
+  const Basis across = Basis::from_normal(light.axis);
+  Bounds3 box; // of the points, from the first: x and y across the axis, z along it
+  for (const vec4& p : near) {
+    const vec3 at = across.to_local(vec3(p));
+    box.grow(at - vec3(0, 0, p.w)), box.grow(at + vec3(0, 0, p.w));
+  }
+  const vec3 middle = box.center();
+  for (const vec4& p : near)
+    light.radius = std::max(light.radius, glm::length(vec2(across.to_local(vec3(p)) - middle)) + p.w);
+  // Pieces overlap a little, and what is far away is rounded.
+  constexpr auto kOverlap = static_cast<float>(accel_detail::kCurveOverlap);
+  const float far = max_component(glm::max(glm::abs(vec3(points[0])), glm::abs(vec3(points[3]))));
+  const float slack = 4 * kOverlap * (length + light.radius) + 1e-5f * far;
+  light.start = vec3(points[0]) + across.to_world({middle.x, middle.y, box.lo.z - slack});
+  light.length = box.hi.z - box.lo.z + 2 * slack;
+  light.radius += slack;
+  light.area = kPi * width * length;
+  light.emission = sent->mean;
+  light.curves = this;
+  light.piece = static_cast<std::uint32_t>(piece);
+  return light;
+}
+
 Hit CurveSurfaces::hit_at(std::uint64_t number, vec3 point) const {
   Hit hit;
   hit.kind = PrimitiveKind::curve;

@@ -1,6 +1,7 @@
 #pragma once
 // Strands of hair: tubes and ribbons along curves.
 
+#include "lights/curve_light.h"
 #include "render/world/emission_table.h"
 #include "render/world/surface_kind.h"
 
@@ -10,8 +11,10 @@ namespace candela {
 /// 0 and 1 at its edges, growing along the cross product of the strand's direction and the ray's. So v tells
 /// where a ray passes through a hair (Hair::h = 2 v - 1).
 ///
-/// Curves that emit are not sampled as lights: only rays that meet them find them.
-struct CurveSurfaces {
+/// Each piece of a curve that emits evenly is a light. Neighbours overlap, so that there is no gap between
+/// them, and where strands have a corner both have the ball there: such a place counts as that of one of
+/// them.
+struct CurveSurfaces final : CurvePieces {
   using Primitives = primitives::Curves;
   struct Placed { ///< a shape
     std::uint32_t material, instance;
@@ -35,7 +38,7 @@ struct CurveSurfaces {
 
   std::uint32_t material_of(const Hit& hit) const { return shapes[parts[hit.primitive].shape].material; }
   std::uint32_t instance_of(const Hit& hit) const { return shapes[parts[hit.primitive].shape].instance; }
-  std::uint64_t number_of(const Hit& hit) const { return hit.primitive; }
+  std::uint64_t number_of(const Hit& hit) const { return owner(hit.primitive, hit.u); }
 
   /// The normal of a tube is that of its surface, that of a ribbon faces the ray, across the strand.
   void set_surface(const Ray& ray, const Hit& hit, SurfaceInteraction& s) const;
@@ -44,8 +47,30 @@ struct CurveSurfaces {
   /// Near the point, along the chord of the segment.
   Hit hit_at(std::uint64_t number, vec3 point) const;
 
+  std::optional<Meeting> meet(std::uint32_t piece, vec3 from, vec3 direction) const override;
+  /// Not of curves whose radiance or opacity a texture gives, for what it gives depends on the ray, nor of
+  /// those that let light through, for behind its first point the ray may meet the same piece again: only
+  /// rays that meet them find them.
   template <class Emits, class Add>
-  void for_each_light(Emits, Add, const Progress*) const {}
+  void for_each_light(Emits emits, Add add, const Progress* progress) const {
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      check_now_and_then(progress, i);
+      const std::uint32_t material = shapes[parts[i].shape].material;
+      if (emits(material))
+        add(i, 1, material, [&](const EmitterRadiance& radiance) { return light_of_piece(i, radiance); });
+    }
+  }
+
+private:
+  /// The piece that a place counts as, by what meets it and where.
+  std::uint32_t owner(std::uint32_t piece, float u) const {
+    const bool first = parts[piece].u_begin == 0, last = parts[piece].u_end == 1;
+    if (u > 1 && !last) return piece + 1;
+    if (u < 0 && !first) return piece - 1;
+    const bool corner = u == 0 && !first && (segments[piece].flags & CurveSegment::closed_start);
+    return corner ? piece - 1 : piece;
+  }
+  std::optional<CurveLight> light_of_piece(std::size_t piece, const EmitterRadiance& radiance) const;
 };
 
 } // namespace candela

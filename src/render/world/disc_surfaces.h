@@ -4,7 +4,6 @@
 #include "lights/disc_light.h"
 #include "render/world/emission_table.h"
 #include "render/world/surface_kind.h"
-#include "sampling/warp.h"
 
 namespace candela {
 
@@ -76,9 +75,10 @@ struct DiscSurfaces {
     for (std::size_t i = 0; i < discs.size(); ++i)
       if (emits(materials[i]))
         add(i, 1, materials[i], [&](const EmitterRadiance& radiance) {
-          const LightRadiance sent =
-              radiance.over([](vec2 q) { return 0.5f * sample_uniform_disc(q) + 0.5f; });
-          return DiscLight{discs[i].center, discs[i].normal, discs[i].radius, sent.mean, sent.two_sided};
+          const LightRadiance sent = radiance.over_chart(EmissionChart::disc);
+          DiscLight light{discs[i].center, discs[i].normal, discs[i].radius, sent.mean, sent.two_sided};
+          light.set_picture(sent.picture, glm::normalize(axes[i].x), glm::normalize(axes[i].y));
+          return light;
         });
   }
 };

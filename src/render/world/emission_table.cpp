@@ -1,5 +1,9 @@
 #include "render/world/emission_table.h"
 
+#include "lights/disc_light.h"
+#include "lights/sphere_light.h"
+#include "render/world/sphere_uv.h"
+
 namespace candela {
 
 namespace {
@@ -52,8 +56,23 @@ int count_of(float texels, int least, int most) {
 
 } // namespace
 
-EmissionTable tabulate_emission(const SurfaceMaterial& material, bool mirrored, const Progress* progress) {
-  const float across = texels_along(material, {1, 0}), up = texels_along(material, {0, 1});
+vec2 chart_uv(EmissionChart chart, vec2 place) {
+  switch (chart) {
+  case EmissionChart::mirrored_rectangle: return {1 - place.x, place.y};
+  case EmissionChart::disc: return 0.5f * DiscLight::from_polar(place) + 0.5f;
+  case EmissionChart::sphere: return sphere_uv(SphereLight::from_square(place));
+  case EmissionChart::rectangle: break;
+  }
+  return place;
+}
+
+EmissionTable tabulate_emission(const SurfaceMaterial& material, EmissionChart chart,
+                                const Progress* progress) {
+  float across = texels_along(material, {1, 0}), up = texels_along(material, {0, 1});
+  if (chart == EmissionChart::disc) { // along the radius and around the rim
+    const float finer = std::max(across, up);
+    across = 0.5f * finer, up = kPi * finer;
+  }
   // A texel that is blended with its neighbours varies within: two cells, and some lookups in each.
   auto cells_of = [](float texels) { return count_of(2 * texels, 16, kMostCells); };
   auto lookups_of = [](float texels, int cells) {
@@ -69,7 +88,7 @@ EmissionTable tabulate_emission(const SurfaceMaterial& material, bool mirrored, 
     float* row = &cells[static_cast<std::size_t>(y / high) * static_cast<std::size_t>(columns)];
     for (int x = 0; x < columns * wide; ++x) {
       const vec2 place = (vec2(x, y) + 0.5f) / size;
-      row[x / wide] += luminance(radiance.look_up({mirrored ? 1 - place.x : place.x, place.y}));
+      row[x / wide] += luminance(radiance.look_up(chart_uv(chart, place)));
     }
   }
   EmissionTable table{radiance.mean(), nullptr};

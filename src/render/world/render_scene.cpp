@@ -109,15 +109,21 @@ void SceneLights::add_emitters(const SceneLights* previous, const Progress* prog
   for (const SurfaceMaterial& m : materials_) any |= m.emissive;
   if (!any) return;
   light_of_emitter_.reset(geometry_->emitter_count());
-  auto table = [&](const SurfaceMaterial& m, bool mirrored) -> const EmissionTable& {
-    return emission_table(m, mirrored, previous, progress);
+  auto table = [&](const SurfaceMaterial& m, EmissionChart chart) -> const EmissionTable& {
+    return emission_table(m, chart, previous, progress);
   };
   geometry_->surfaces().for_each([&](const auto& kind, std::uint64_t first) {
     auto emits = [&](std::uint32_t material) { return materials_[material].emissive; };
     auto add = [&](std::uint64_t number, std::uint32_t count, std::uint32_t material, auto make) {
       const SurfaceMaterial& m = materials_[material];
       const std::uint64_t emitter = first + number;
-      add_emitter(emitter, material, make(EmitterRadiance(m, table)));
+      const auto made = make(EmitterRadiance(m, table));
+      if constexpr (requires { made.has_value(); }) { // a light, or nothing that can be sampled
+        if (made) add_emitter(emitter, material, *made);
+        return;
+      } else {
+        add_emitter(emitter, material, made);
+      }
       for (std::uint32_t i = 1; i < count; ++i)
         light_of_emitter_.set(emitter + i, light_of_emitter_[emitter]);
     };
@@ -125,10 +131,10 @@ void SceneLights::add_emitters(const SceneLights* previous, const Progress* prog
   });
 }
 
-const EmissionTable& SceneLights::emission_table(const SurfaceMaterial& material, bool mirrored,
+const EmissionTable& SceneLights::emission_table(const SurfaceMaterial& material, EmissionChart chart,
                                                  const SceneLights* previous, const Progress* progress) {
-  auto fits = [&](const RectangleEmission& known) {
-    return known.mirrored == mirrored && emits_alike(*known.material, material);
+  auto fits = [&](const ShownEmission& known) {
+    return known.chart == chart && emits_alike(*known.material, material);
   };
   auto own = std::ranges::find_if(emission_tables_, fits);
   if (own != emission_tables_.end()) return *own->table;
@@ -137,8 +143,8 @@ const EmissionTable& SceneLights::emission_table(const SurfaceMaterial& material
     auto known = std::ranges::find_if(previous->emission_tables_, fits);
     if (known != previous->emission_tables_.end()) table = known->table;
   }
-  if (!table) table = std::make_shared<const EmissionTable>(tabulate_emission(material, mirrored, progress));
-  emission_tables_.push_back({&material, mirrored, table});
+  if (!table) table = std::make_shared<const EmissionTable>(tabulate_emission(material, chart, progress));
+  emission_tables_.push_back({&material, chart, table});
   return *table;
 }
 
@@ -177,9 +183,11 @@ void SceneLights::add_lights(const SceneLights* previous, const Progress* progre
   const LightResources resources{
       [&](const EnvironmentLightModel& m) { return environment_map(m, previous, progress); },
       [&](const SkyParameters& parameters) { return sky(parameters, previous, progress); }};
+  portals_ = ScenePortals(source_);
   for (std::size_t i = 0; i < source_.size(); ++i) {
     if (is_black(source_[i].color * source_[i].scale)) continue;
-    for (const Light& light : make_lights(source_[i], resources)) {
+    for (Light light : make_lights(source_[i], resources)) {
+      portals_.give(light, previous != nullptr ? &previous->portals_ : nullptr, progress);
       if (light_kind(light) == LightKind::infinite)
         infinite_lights_.push_back(static_cast<std::uint32_t>(lights_.size()));
       add_light(light, layers_.of_light, i);

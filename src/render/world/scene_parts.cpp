@@ -127,11 +127,11 @@ std::size_t SceneLights::memory_bytes() const {
   std::size_t bytes = lights_.size() * sizeof(Light) + layer_of_light_.size() +
                       light_of_emitter_.memory_bytes() + all_lights_.memory_bytes() +
                       delta_lights_.memory_bytes();
-  for (const RectangleEmission& shown : emission_tables_)
+  for (const ShownEmission& shown : emission_tables_)
     if (shown.table->grid) bytes += shown.table->grid->memory_bytes();
   for (const auto& map : environment_maps_) bytes += map->memory_bytes();
   for (const KnownSky& known : skies_) bytes += known.sky->sky->image.pixels.size() * sizeof(vec3);
-  return bytes;
+  return bytes + portals_.memory_bytes();
 }
 
 } // namespace candela

@@ -8,6 +8,7 @@
 #include "render/world/emission_table.h"
 #include "render/world/emitter_texture.h"
 #include "render/world/geometry.h"
+#include "render/world/scene_portals.h"
 #include "render/world/surface_material.h"
 #include "scene/light_layers.h"
 
@@ -93,10 +94,10 @@ public:
   std::size_t memory_bytes() const;
 
 private:
-  /// What a rectangle light of the material shows.
-  struct RectangleEmission {
+  /// What a light of the material shows.
+  struct ShownEmission {
     const SurfaceMaterial* material;
-    bool mirrored;
+    EmissionChart chart;
     std::shared_ptr<const EmissionTable> table;
   };
 
@@ -106,7 +107,7 @@ private:
   };
 
   void add_emitters(const SceneLights* previous, const Progress* progress);
-  const EmissionTable& emission_table(const SurfaceMaterial& material, bool mirrored,
+  const EmissionTable& emission_table(const SurfaceMaterial& material, EmissionChart chart,
                                       const SceneLights* previous, const Progress* progress);
   void add_emitter(std::uint64_t emitter, std::uint32_t material, Light light);
   void add_light(const Light& light, const std::vector<std::uint8_t>& layers, std::size_t index);
@@ -127,11 +128,12 @@ private:
   std::vector<Light> lights_;
   std::vector<std::uint8_t> layer_of_light_; ///< parallel to lights_ where there are layers
   EmitterLights light_of_emitter_;
-  std::vector<EmitterTexture> emitter_textures_;   ///< by light; empty where none is textured
-  std::vector<RectangleEmission> emission_tables_; ///< what lights_ point to
+  std::vector<EmitterTexture> emitter_textures_; ///< by light; empty where none is textured
+  std::vector<ShownEmission> emission_tables_;   ///< what lights_ point to
   std::vector<std::uint32_t> infinite_lights_;
   std::vector<std::shared_ptr<const EnvironmentMap>> environment_maps_; ///< what lights_ point to
   std::vector<KnownSky> skies_;                                         ///< what environment_maps_ show
+  ScenePortals portals_;                                                ///< what lights_ point to
   LightSelection all_lights_, delta_lights_;
 };
 

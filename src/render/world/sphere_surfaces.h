@@ -72,8 +72,10 @@ struct SphereSurfaces {
     for (std::size_t i = 0; i < spheres.size(); ++i)
       if (emits(materials[i]))
         add(i, 1, materials[i], [&](const EmitterRadiance& radiance) {
-          const LightRadiance sent = radiance.over(sphere_uv_of_square);
-          return SphereLight{spheres[i].center, spheres[i].radius, sent.mean, sent.two_sided};
+          const LightRadiance sent = radiance.over_chart(EmissionChart::sphere);
+          SphereLight light{spheres[i].center, spheres[i].radius, sent.mean, sent.two_sided};
+          light.set_picture(sent.picture, local_from_world[i]);
+          return light;
         });
   }
 

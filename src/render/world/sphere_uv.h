@@ -27,7 +27,4 @@ inline vec3 sphere_direction(vec2 uv) {
   return {sine * std::cos(phi), sine * std::sin(phi), std::cos(theta)};
 }
 
-/// Equal areas of the unit square to equal areas of the sphere.
-inline vec2 sphere_uv_of_square(vec2 q) { return {q.x, 1 - std::acos(1 - 2 * q.y) * kInvPi}; }
-
 } // namespace candela

@@ -22,7 +22,7 @@ namespace candela {
 /// - hit_at: the hit of a ray from the point on the primitive of that number, with t = 0.
 /// - for_each_light(emits, add, progress): for each light that surfaces are of which emits(material), calls
 ///   add(number, count, material, make): of `count` primitives from that number on, make(an EmitterRadiance)
-///   being a light of lights/.
+///   being a light of lights/, or an optional one: without it only rays that meet the surface find it.
 ///
 /// Optional, of kinds that shapes become directly:
 ///

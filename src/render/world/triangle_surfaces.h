@@ -99,7 +99,8 @@ struct TriangleSurfaces {
       if (!emits(material) || !r.is_light()) continue;
       add(r.first_triangle, 2, material, [&](const EmitterRadiance& radiance) {
         const bool mirrored = set.uvs[set.triangles[r.first_triangle].x].x > 0.5f;
-        const LightRadiance sent = radiance.over_rectangle(mirrored);
+        const LightRadiance sent =
+            radiance.over_chart(mirrored ? EmissionChart::mirrored_rectangle : EmissionChart::rectangle);
         return RectangleLight(r.corner, r.edge_x, r.edge_y, sent.mean, sent.two_sided, sent.picture);
       });
     }

@@ -100,6 +100,7 @@ TEST(StrategyStatistical, TexturedLamps) { expect_one_expectation(strategy_scene
 TEST(StrategyStatistical, FilteredTextures) { expect_one_expectation(strategy_scenes()[9], 512); }
 TEST(StrategyStatistical, ShapedLights) { expect_one_expectation(strategy_scenes()[10], 512); }
 TEST(StrategyStatistical, CoarseSmoothBalls) { expect_one_expectation(strategy_scenes()[11], 512); }
+TEST(StrategyStatistical, GlowingCurves) { expect_one_expectation(strategy_scenes()[12], 512); }
 
 /// Everything with everything.
 void expect_all_combinations_agree(const NamedScene& scene) {
@@ -133,6 +134,7 @@ TEST(StrategyHeavy, TexturedLamps) { expect_all_combinations_agree(strategy_scen
 TEST(StrategyHeavy, FilteredTextures) { expect_all_combinations_agree(strategy_scenes()[9]); }
 TEST(StrategyHeavy, ShapedLights) { expect_all_combinations_agree(strategy_scenes()[10]); }
 TEST(StrategyHeavy, CoarseSmoothBalls) { expect_all_combinations_agree(strategy_scenes()[11]); }
+TEST(StrategyHeavy, GlowingCurves) { expect_all_combinations_agree(strategy_scenes()[12]); }
 
 TEST(StrategyStatistical, RouletteKeepsTheMeanOfUnlimitedPaths) {
   Document d = mirror_and_glass_scene();

@@ -177,5 +177,48 @@ TEST(EmissionTable, SpheresAndDiscsAreAsBrightAsTheirArea) {
   EXPECT_NEAR(std::get<DiscLight>(scene->lights()[1]).emission.x, 4 * 0.5f, 0.1f);
 }
 
+/// Whatever turns or mirrors them; but near the edges of texels, which cells of the table lie across.
+TEST(EmissionTable, FollowsTheMaterialOnDiscsAndSpheres) {
+  std::mt19937 random(static_cast<std::mt19937::result_type>(fresh_seed()));
+  SCOPED_TRACE(seed_note());
+  std::uniform_real_distribution<float> unit(0, 1);
+  const auto texture = picture_texture(2, 2, {255, 60, 0, 130}, 1);
+  for (bool mirrored : {false, true}) {
+    mat4 place = glm::rotate(glm::translate(mat4(1), {1, 0.5f, 0.2f}), 1.1f, vec3(1, 2, 3));
+    if (mirrored) place = glm::scale(place, vec3(-1, 1, 1));
+    for (const Shape& shape : {Shape(DiscShape{}), Shape(SphereShape{})}) {
+      SceneMaker s(8, 8, 1);
+      s.document.scene.textures.push_back(texture);
+      s.document.scene.instances.push_back(
+          {"", shape, place, {s.material(picture_lamp(TextureFilter::nearest))}});
+      const auto scene = RenderScene::build(s.document);
+      const auto* disc = std::get_if<DiscLight>(&scene->lights().at(0));
+      const auto* sphere = std::get_if<SphereLight>(&scene->lights().at(0));
+      const EmissionGrid* grid = disc != nullptr ? disc->picture : sphere->picture;
+      ASSERT_NE(grid, nullptr);
+      const float mean = luminance(disc != nullptr ? disc->emission : sphere->emission);
+      int compared = 0;
+      for (int i = 0; i < 2000; ++i) {
+        const vec2 q(unit(random), unit(random));
+        vec3 point;
+        if (disc != nullptr) {
+          const vec2 d = disc->radius * DiscLight::from_polar(q);
+          point = disc->center + d.x * disc->axis_x + d.y * disc->axis_y;
+        } else {
+          point = sphere->center + sphere->radius * (SphereLight::from_square(q) * sphere->local_from_world);
+        }
+        const vec3 local = glm::inverse(mat3(place)) * (point - vec3(place[3]));
+        const float from_edge = disc != nullptr ? std::min(std::abs(local.x), std::abs(local.y))
+                                                : std::min(std::abs(local.y), std::abs(local.z));
+        if (from_edge < 0.2f) continue;
+        ++compared;
+        const float expected = luminance(scene->emitter_texture(0)->radiance(*scene, point)) / mean;
+        ASSERT_NEAR(grid->pdf(q), expected, 1e-3f * expected + 1e-6f) << local.x << ' ' << local.y;
+      }
+      EXPECT_GT(compared, 500);
+    }
+  }
+}
+
 } // namespace
 } // namespace candela::test
