@@ -59,14 +59,17 @@ std::array<vec3, 3> MovingTriangleSurfaces::corners(const Hit& hit, float time) 
   return p;
 }
 
-/// Not of unit length. Nothing where the triangle is flat, as TriangleSet::smooth_normal has it.
+/// Of unit length, as those of a mesh that stands still. Nothing where the triangle is flat, as
+/// TriangleSet::smooth_normal has it.
 std::optional<std::array<vec3, 3>> MovingTriangleSurfaces::corner_normals(const Hit& hit, float time) const {
   if (set.normals.empty()) return std::nullopt;
   const uvec3 t = set.triangles[hit.primitive];
   std::array<vec3, 3> n;
   for (int k = 0; k < 3; ++k) {
     if (is_black(set.normals[t[k]]) || is_black(normals_end[t[k]])) return std::nullopt;
-    n[static_cast<std::size_t>(k)] = at_time(set.normals[t[k]], normals_end[t[k]], time);
+    const vec3 normal = at_time(set.normals[t[k]], normals_end[t[k]], time);
+    if (!(length_squared(normal) > 0)) return std::nullopt;
+    n[static_cast<std::size_t>(k)] = glm::normalize(normal);
   }
   return n;
 }
@@ -87,10 +90,7 @@ std::optional<SmoothTriangle> MovingTriangleSurfaces::smooth_triangle(const Ray&
   if (!n) return std::nullopt;
   const vec3 smooth = interpolate((*n)[0], (*n)[1], (*n)[2], hit.u, hit.v);
   if (is_black(smooth)) return std::nullopt;
-  SmoothTriangle t{corners(hit, ray.time), *n, smooth};
-  for (vec3& normal : t.normals)
-    if (length_squared(normal) > 0) normal = glm::normalize(normal);
-  return t;
+  return SmoothTriangle{corners(hit, ray.time), *n, smooth};
 }
 
 SurfaceTangents MovingTriangleSurfaces::tangents(const Ray& ray, const Hit& hit) const {
