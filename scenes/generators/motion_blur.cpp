@@ -23,7 +23,7 @@ constexpr const char* kScene = R"({{
   "camera": {{"position": [0, 1.5, 6.4], "target": [0, 1.12, 0], "vertical_fov": 32, "shutter_close": 1}},
   "bookmarks": [
     {{"name": "follow the ball", "camera": {{"position": [0, 1.5, 6.4], "target": [0, 1.12, 0], "vertical_fov": 32, "shutter_close": 1,
-      "motion_position": [1.1, 0, 0], "motion_target": [1.1, 0, 0]}}}}
+      "motion_position": [0.7, 0, 0], "motion_target": [0.7, 0, 0]}}}}
   ],
 
   "textures": [
@@ -33,14 +33,14 @@ constexpr const char* kScene = R"({{
   ],
 
   "materials": [
-    {{"name": "floor", "diffuse": {{"texture": "tiles", "uv_scale": [1.4, 1.4]}}}},
+    {{"name": "floor", "diffuse": {{"texture": "tiles", "uv_scale": [0.7, 0.7]}}}},
     {{"name": "wall", "diffuse": {{"texture": "tiles", "uv_scale": [0.5, 0.5], "factor": 0.8}}}},
     {{"name": "ball", "type": "plastic", "diffuse": {{"texture": "patches"}}, "roughness": 0.2}},
     {{"name": "cloth", "diffuse": {{"texture": "stripes"}}}},
     {{"name": "blades", "type": "plastic", "diffuse": [0.9, 0.55, 0.08], "roughness": 0.3}},
     {{"name": "steel", "type": "conductor", "metal": "Fe", "roughness": 0.25}},
     {{"name": "glass", "type": "dielectric"}},
-    {{"name": "lamp", "diffuse": 0, "emission": [14, 13, 11]}}
+    {{"name": "lamp", "diffuse": 0, "emission": [27, 25, 21]}}
   ],
 
   "lights": [{{"name": "room", "type": "constant", "color": [0.28, 0.31, 0.36]}}],
@@ -66,8 +66,8 @@ constexpr const char* kScene = R"({{
     {{"name": "stand", "shape": "cylinder", "radius": 0.04, "height": 1.4, "material": "steel",
      "transform": [{{"rotate": [1, 0, 0, -90]}}, {{"translate": [-1.32, 0, 0.02]}}]}},
     {{"name": "ball", "shape": "sphere", "radius": 0.42, "material": "ball",
-     "transform": [{{"rotate": [1, 0, 0, -60]}}, {{"translate": [-0.35, 0.42, 1.1]}}],
-     "motion": {{"translate": [1.1, 0, 0], "axis": [0, -0.8660254, -0.5], "angle": {:.5f}}}}},
+     "transform": [{{"rotate": [1, 0, 0, -60]}}, {{"translate": [-0.2, 0.42, 1.1]}}],
+     "motion": {{"translate": [0.7, 0, 0], "axis": [0, -0.8660254, -0.5], "angle": {:.5f}}}}},
     {{"name": "still", "shape": "sphere", "radius": 0.3, "material": "glass", "transform": [{{"translate": [-1.1, 0.3, 1.2]}}]}},
     {{"name": "flag", "mesh": "flag", "material": "cloth", "transform": [{{"translate": [1, 1.35, 0]}}]}},
     {{"name": "pole", "shape": "cylinder", "radius": 0.03, "height": 2.3, "material": "steel",
@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   // A ball that rolls turns by its way over its radius.
-  const double angle = 1.1 / 0.42 * 180 / std::numbers::pi;
+  const double angle = 0.7 / 0.42 * 180 / std::numbers::pi;
   auto out = fmt::output_file(argv[1]);
   out.print("{}", fmt::format(kScene, propeller().json(false), flag().json(true), angle));
 }

@@ -1,5 +1,9 @@
 #include "app/tools/fly_camera.h"
 
+#include "scene/document.h"
+
+#include <fmt/format.h>
+
 namespace candela {
 
 namespace {
