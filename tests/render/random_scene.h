@@ -206,7 +206,8 @@ private:
   Motion motion() {
     Motion m;
     for (const Field<Motion>& row : motion_fields())
-      if (!one_in(3)) randomise(row, row.address(m));
+      if (row.key != "scale" && !one_in(3)) randomise(row, row.address(m));
+    if (one_in(3)) m.scale = {number(0.1f, 4), number(0.1f, 4), number(0.1f, 4)};
     return motion_problem(m).empty() ? m : Motion();
   }
 
