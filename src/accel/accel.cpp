@@ -146,9 +146,14 @@ Accel Accel::build(const AccelInput& input, BuildQuality quality, Progress* prog
   PrimitiveKinds::for_each([&]<class Kind>() { count += Kind::count(input); });
   if (count > kMaxPrimitives)
     throw limit_error({}, "scene", "more than 2^28 primitives", "use fewer, or instances");
-  for (const InstanceGeometry& instance : input.instances)
-    if (instance.object && instance.object->stats().count(PrimitiveKind::instance))
-      throw limit_error({}, "instance", "its object holds instances itself", "flatten the hierarchy");
+  auto refuse_nested = [](const auto& instances) {
+    for (const auto& instance : instances)
+      if (instance.object && (instance.object->stats().count(PrimitiveKind::instance) > 0 ||
+                              instance.object->stats().count(PrimitiveKind::moving_instance) > 0))
+        throw limit_error({}, "instance", "its object holds instances itself", "flatten the hierarchy");
+  };
+  refuse_nested(input.instances);
+  refuse_nested(input.moving_instances);
 
   // One group of threads for all stages rather than one each: at the end of its work the group waits for the
   // slowest of its threads, and where others use the machine that may be one that does not run at all. Tasks
@@ -166,8 +171,8 @@ Accel Accel::build(const AccelInput& input, BuildQuality quality, Progress* prog
   return Accel(std::move(tree));
 }
 
-Bounds3 primitives::Instances::object_bounds(const Accel& object) { return object.bounds(); }
-const AccelTree* primitives::Instances::object_tree(const Accel& object) { return AccelAccess::tree(object); }
+Bounds3 accel_detail::object_bounds(const Accel& object) { return object.bounds(); }
+const AccelTree* accel_detail::object_tree(const Accel& object) { return AccelAccess::tree(object); }
 
 Bounds3 Accel::bounds() const { return tree_ ? tree_->bounds : Bounds3{}; }
 std::size_t Accel::memory_bytes() const { return stats().bytes; }

@@ -1,9 +1,10 @@
 #pragma once
 // The acceleration structure: what a ray hits first, and whether it hits anything at all.
 //
-// One bounding volume hierarchy over triangles, spheres, discs, curves and instances of other hierarchies. It
-// knows geometry only: no materials, normals or textures. The caller gets which primitive was hit, at which t
-// and at which barycentrics, and computes the rest from its own data.
+// One bounding volume hierarchy over triangles, spheres, discs, curves and instances of other hierarchies;
+// instances, and the vertices of triangles, may move with the time of the ray. It knows geometry only: no
+// materials, normals or textures. The caller gets which primitive was hit, at which t and at which
+// barycentrics, and computes the rest from its own data.
 //
 // Triangles are watertight: a ray that passes exactly through an edge or a vertex that triangles share hits
 // at least one of them. The closest hit, the any-hit answer and the tree are the same for any number of
@@ -32,7 +33,8 @@ struct Hit {
   /// curves; 0 otherwise.
   float u = 0, v = 0;
   std::uint32_t primitive = 0; ///< index into the input array of its kind (the object's, if instanced)
-  std::uint32_t instance = kNoInstance; ///< index into AccelInput::instances
+  /// Index into AccelInput::instances, or into moving_instances, with the bit kMovingInstance.
+  std::uint32_t instance = kNoInstance;
   PrimitiveKind kind = PrimitiveKind::triangle;
 };
 

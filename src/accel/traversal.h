@@ -84,11 +84,9 @@ template <class F, bool any_hit, class Cost>
   return PrimitiveKinds::visit(leaf.kind(), [&]<class Kind>() {
     if constexpr (std::is_same_v<Kind, primitives::Triangles>) {
       return false;
-    } else if constexpr (std::is_same_v<Kind, primitives::Instances>) {
-      // In the object's space t stays the same, for the direction is not renormalised.
-      const InstanceRecord& instance = tree.packs<Kind>()[leaf.pack()];
-      const auto& m = instance.object_from_world;
-      Ray local{m * vec4(ray.origin, 1), ray.t_min, m * vec4(ray.direction, 0), t_max};
+    } else if constexpr (ObjectKind<Kind>) {
+      const typename Kind::Pack& instance = tree.packs<Kind>()[leaf.pack()];
+      const Ray local = Kind::object_ray(instance, ray, t_max);
       Hit found;
       if (!trace<F, any_hit>(*instance.object, local, found, cost)) return false;
       if constexpr (any_hit) return true;

@@ -11,6 +11,7 @@ struct Ray {
   float t_min = 0;
   vec3 direction{0, 0, 1};
   float t_max = kInfinity;
+  float time = 0; ///< of the scene, in [0, 1]: where it meets what moves
 
   vec3 at(float t) const { return origin + t * direction; }
 };

@@ -22,6 +22,7 @@ enum class Dimension : std::uint32_t {
   bsdf_direction,   ///< where to
   russian_roulette, ///< whether the path continues
   opacity,          ///< whether a ray hits a partly transparent surface
+  time,             ///< when between the opening and the closing of the shutter
   count
 };
 

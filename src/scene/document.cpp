@@ -73,6 +73,9 @@ std::string mesh_problem(const Mesh& mesh) {
   auto fits = [](const std::vector<vec3>& colors, std::size_t count) {
     return colors.empty() || colors.size() == count;
   };
+  if (!fits(mesh.positions_end, mesh.positions.size())) return "not every vertex has a position at time 1";
+  if (mesh.deforms() && mesh.normals_end.size() != mesh.normals.size())
+    return "not every normal has one at time 1";
   if (!fits(mesh.vertex_colors, mesh.positions.size())) return "not every vertex has a colour";
   if (!fits(mesh.face_colors, mesh.triangles.size())) return "not every face has a colour";
   return {};
@@ -106,6 +109,12 @@ std::string instance_problem(const SceneDesc& scene, const Instance& instance, s
     for (int r = 0; r < 4; ++r)
       if (!std::isfinite(instance.world_from_object[c][r]))
         return fmt::format("instances[{}].transform: is not finite", index);
+  if (auto problem =
+          row_problem(motion_fields(), instance.motion, fmt::format("instances[{}].motion.", index));
+      !problem.empty())
+    return problem;
+  if (auto problem = motion_problem(instance.motion); !problem.empty())
+    return fmt::format("instances[{}].motion.{}", index, problem);
   return {};
 }
 
@@ -116,6 +125,17 @@ std::string view_problem(const Camera& camera) {
     return "up: is zero or along the view";
   return {};
 }
+
+} // namespace
+
+std::string camera_motion_problem(const Camera& camera) {
+  if (!camera.moves()) return {};
+  if (const std::string problem = view_problem(camera_at_end(camera)); !problem.empty())
+    return fmt::format("motion_{} at time 1; give another motion", problem);
+  return {};
+}
+
+namespace {
 
 std::string bookmarks_problem(const std::vector<Bookmark>& bookmarks) {
   std::set<std::string_view> names;
@@ -140,7 +160,8 @@ std::string camera_value_problem(const Camera& camera) {
     if (auto problem = field_problem(row, row.address(document)); !problem.empty())
       return fmt::format("{}: {}; give {}", row.key.substr(kPrefix.size()), problem, field_domain(row));
   }
-  return view_problem(camera);
+  if (auto problem = view_problem(camera); !problem.empty()) return problem;
+  return camera_motion_problem(camera);
 }
 
 Invalidates compare_documents(const Document& before, const Document& after) {
@@ -172,7 +193,7 @@ bool same_content(const Document& a, const Document& b) {
   for (std::size_t i = 0; i < s.instances.size(); ++i) {
     const Instance &x = s.instances[i], &y = t.instances[i];
     if (x.name != y.name || x.world_from_object != y.world_from_object || x.materials != y.materials ||
-        !same_shape(x.shape, y.shape))
+        x.motion != y.motion || !same_shape(x.shape, y.shape))
       return false;
   }
   return true;

@@ -132,6 +132,9 @@ bool same_content(const Document& a, const Document& b);
 /// if it is valid.
 std::string camera_value_problem(const Camera& camera);
 
+/// The same of its motion alone, of a camera that is valid at time 0: "key: cause; remedy".
+std::string camera_motion_problem(const Camera& camera);
+
 /// The first problem of the document: a value out of range ("path.max_depth: …"), an index of a material,
 /// texture or mesh out of range, invalid pixels, or a bookmark without a unique name; empty if it is valid.
 std::string document_problem(const Document& document);

@@ -20,6 +20,10 @@ struct Mesh {
   std::vector<vec3> positions;
   std::vector<vec3>
       normals; ///< unit, per vertex; empty: flat. A zero normal means: flat at this vertex's triangles.
+  /// Of a mesh that deforms: positions and normals at time 1, as many as above; positions that are empty: it
+  /// keeps its shape. Values between are linear in time.
+  std::vector<vec3> positions_end, normals_end;
+  std::string source_end;          ///< the file that those came from; may be empty
   std::vector<vec2> uvs;           ///< per vertex; empty: none
   std::vector<vec3> vertex_colors; ///< linear Rec. 709, at least 0, per vertex; empty: none
   std::vector<uvec3> triangles;
@@ -27,6 +31,13 @@ struct Mesh {
   std::vector<std::uint32_t> material_slots;    ///< per triangle, indexes slot_names; empty: all 0
   std::vector<std::string> slot_names = {""};   ///< what the file calls its materials
   bool operator==(const Mesh&) const = default; ///< by value; compare pointers first where that is enough
+
+  bool deforms() const { return !positions_end.empty(); }
 };
+
+/// Why `end` cannot be what `begin` deforms to; empty if it can.
+std::string topology_problem(const Mesh& begin, const Mesh& end);
+/// `begin` with the vertices of `end` at time 1.
+Mesh deforming(Mesh begin, const Mesh& end);
 
 } // namespace candela

@@ -88,6 +88,7 @@ Bounds3 shape_bounds(const Shape& shape) {
   if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape)) {
     box = {};
     for (vec3 p : (*mesh)->positions) box.grow(p);
+    for (vec3 p : (*mesh)->positions_end) box.grow(p);
   } else if (const auto* sphere = std::get_if<SphereShape>(&shape)) {
     box = {vec3(-sphere->radius), vec3(sphere->radius)};
   } else if (std::holds_alternative<CubeShape>(shape)) {

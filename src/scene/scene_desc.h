@@ -9,6 +9,7 @@
 #include "scene/curves.h"
 #include "scene/light_group.h"
 #include "scene/mesh.h"
+#include "scene/motion.h"
 #include "textures/texture.h"
 
 #include <memory>
@@ -47,7 +48,17 @@ struct Camera {
   Stereo stereo = Stereo::none;
   float interocular_distance = 0.065f; ///< scene units, between the eyes
   float convergence_distance = 0;      ///< scene units, where the eyes' pictures coincide; 0: at infinity
+  /// The shutter is open between these times of the scene, in [0, 1]; where they are the same, an instant.
+  float shutter_open = 0, shutter_close = 0;
+  /// What is added by time 1, at the end of the motion: to the position, the target, the up direction and
+  /// (radians) the field of view of time 0. The two poses are interpolated as MovingTransform has it.
+  vec3 motion_position{0}, motion_target{0}, motion_up{0};
+  float motion_fov = 0;
   bool operator==(const Camera&) const = default;
+
+  bool moves() const {
+    return motion_position != vec3(0) || motion_target != vec3(0) || motion_up != vec3(0) || motion_fov != 0;
+  }
 
   /// Whether rays go through a lens of elements.
   bool has_elements() const { return projection == Projection::perspective && lens != Lens::thin; }
@@ -62,6 +73,15 @@ struct Camera {
     return focus_distance > 0 ? focus_distance : glm::length(target - position);
   }
 };
+
+/// The camera as it is at time 1.
+inline Camera camera_at_end(Camera camera) {
+  camera.position += camera.motion_position;
+  camera.target += camera.motion_target;
+  camera.up += camera.motion_up;
+  camera.vertical_fov = std::clamp(camera.vertical_fov + camera.motion_fov, radians(0.1f), radians(179.0f));
+  return camera;
+}
 
 // Shapes, in the space of their instance. Those with a `radius` stand on or lie around the z axis.
 
@@ -104,6 +124,7 @@ struct Instance {
   Shape shape;
   mat4 world_from_object{1.0f};
   std::vector<int> materials; ///< by the mesh's material slot; one entry for the other shapes
+  Motion motion = {};         ///< from its place at time 0, world_from_object
   bool operator==(const Instance&) const = default;
 };
 

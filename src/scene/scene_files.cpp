@@ -6,7 +6,7 @@ std::set<std::string> source_files(const SceneDesc& scene) {
   std::set<std::string> files;
   for (const Instance& instance : scene.instances)
     if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape))
-      files.insert((*mesh)->source);
+      files.insert({(*mesh)->source, (*mesh)->source_end});
     else if (const auto* curves = std::get_if<CurvesShape>(&instance.shape))
       files.insert(curves->strands->source);
   for (const auto& texture : scene.textures)

@@ -59,6 +59,12 @@ TESTS = {
     "textures/gradient_texture.h": ["textures/gradient_texture_test.cpp"],
     "textures/noise_texture.h": ["textures/noise_texture_test.cpp"],
     "textures/worley_texture.h": ["textures/worley_texture_test.cpp"],
+    "core/moving_transform.cpp": ["core/moving_transform_test.cpp"],
+    "accel/primitives/moving_triangles.h": ["accel/motion_test.cpp"],
+    "render/integrators/direct_light.cpp": ["render/motion_blur_test.cpp"],
+    "render/world/moving_instance_surfaces.cpp": ["render/motion_frozen_test.cpp"],
+    "render/world/moving_triangle_surfaces.cpp": ["render/motion_frozen_test.cpp"],
+    "render/camera/camera_motion.cpp": ["render/motion_frozen_test.cpp"],
 }
 
 MUTANTS = [
@@ -190,4 +196,14 @@ MUTANTS = [
     ("textures/noise_texture.h", "const vec2 w = f * f * f * (f * (f * 6.0f - 15.0f) + 10.0f);", "const vec2 w = f * f * f * (f * (f * 6.0f - 15.0f) + 9.0f);", "a coefficient of the fade"),
     ("textures/noise_texture.h", "n11 = slope(hash32(x + 1 + above), f - 1.0f);", "n11 = slope(hash32(x + 1 + above), f);", "a corner's offset"),
     ("textures/worley_texture.h", "second = std::min(second, std::max(first, d2));", "second = std::min(second, d2);", "second distance"),
+    # Motion
+    ("core/moving_transform.cpp", "const double t = static_cast<double>(step) / steps;", "const double t = 0.0 * step / steps;", "bounds of time 0 alone"),
+    ("core/moving_transform.cpp", "(8.0 * steps * steps)", "(1e9 * steps * steps)", "bounds of the sampled times alone"),
+    ("core/moving_transform.cpp", "glm::dvec3(1) + time * (scale - glm::dvec3(1))", "glm::dvec3(1) + (scale - glm::dvec3(1))", "the scale of time 1 at all times"),
+    ("accel/primitives/moving_triangles.h", "const F begin(1 - time), end(time);", "const F begin(1 - time), end(0.99f * time);", "1 % behind"),
+    ("render/integrators/direct_light.cpp", "shadow.ray.time = time;", "shadow.ray.time = 0 * time;", "shadow rays at time 0"),
+    ("render/world/moving_instance_surfaces.cpp", "normal_to_world = glm::transpose(mat3(m));", "normal_to_world = glm::transpose(mat3(accel_detail::object_from_world(placement, 0)));", "normals of time 0"),
+    ("render/world/moving_triangle_surfaces.cpp", "at_time(set.normals[t[k]], normals_end[t[k]], time)", "at_time(set.normals[t[k]], normals_end[t[k]], 0)", "normals of time 0"),
+    ("render/camera/camera_motion.cpp", "const glm::dmat3 rotation = rotation_about(pose_.axis, time * pose_.angle);", "const glm::dmat3 rotation = rotation_about(pose_.axis, -time * pose_.angle);", "turns the other way"),
+    ("render/camera/camera_motion.cpp", "if (!zooms_) return film;", "return film;", "no zoom"),
 ]

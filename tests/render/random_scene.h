@@ -157,6 +157,10 @@ private:
       const unsigned a = corner(), b = corner();
       m.triangles.emplace_back(a, b, corner());
     }
+    if (one_in(4)) {
+      for (const vec3 p : m.positions) m.positions_end.push_back(one_in(4) ? p : p + point(0.5f));
+      for (std::size_t i = 0; i < m.normals.size(); ++i) m.normals_end.push_back(direction());
+    }
     return m;
   }
 
@@ -196,7 +200,15 @@ private:
       randomise(row, row.address(changed));
       if (shape_problem(changed).empty()) shape = changed;
     }
-    scene().instances.push_back({"", *shape, transform(), {material}});
+    scene().instances.push_back({"", *shape, transform(), {material}, one_in(5) ? motion() : Motion()});
+  }
+
+  Motion motion() {
+    Motion m;
+    for (const Field<Motion>& row : motion_fields())
+      if (row.key != "scale" && !one_in(3)) randomise(row, row.address(m));
+    if (one_in(3)) m.scale = {number(0.1f, 4), number(0.1f, 4), number(0.1f, 4)};
+    return motion_problem(m).empty() ? m : Motion();
   }
 
   void camera() {
@@ -211,6 +223,9 @@ private:
       if (one_in(2)) c.aperture_radius = number(0, 1);
       if (one_in(3)) c.focus_distance = std::pow(10.0f, number(-3, 3));
       c.blades = pick(9);
+      if (one_in(2)) c.shutter_open = number(0, 1), c.shutter_close = number(0, 1);
+      if (one_in(4)) c.motion_position = point(1), c.motion_target = point(1), c.motion_up = point(0.5f);
+      if (one_in(6)) c.motion_fov = number(-2, 2);
       // The pupils of a lens take a while to find: few scenes have one.
       if (one_in(40)) c.lens = static_cast<Lens>(1 + pick(4));
     } while (!camera_value_problem(c).empty());

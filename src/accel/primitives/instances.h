@@ -8,6 +8,20 @@ namespace candela {
 class Accel;
 struct AccelTree;
 
+namespace accel_detail {
+
+// Defined in accel/accel.cpp, which knows what an Accel holds.
+Bounds3 object_bounds(const Accel& object);
+const AccelTree* object_tree(const Accel& object);
+
+/// A ray in the space of an object, where t stays the same, for the direction is not renormalised.
+inline Ray ray_in_object(const glm::mat4x3& object_from_world, const Ray& ray, float t_max) {
+  return {object_from_world * vec4(ray.origin, 1), ray.t_min, object_from_world * vec4(ray.direction, 0),
+          t_max, ray.time};
+}
+
+} // namespace accel_detail
+
 /// The object holds primitives but no instances of its own, is built before and outlives whatever is built
 /// from it. The matrix is affine and invertible (a singular one is skipped).
 struct InstanceGeometry {
@@ -37,7 +51,7 @@ struct Instances {
   static Bounds3 bounds(const Input& input, std::size_t i) {
     const InstanceGeometry& instance = input.instances[i];
     if (!instance.object) return {};
-    Bounds3 local = object_bounds(*instance.object), result;
+    Bounds3 local = accel_detail::object_bounds(*instance.object), result;
     if (local.empty()) return result;
     glm::dmat4 m(instance.world_from_object);
     double determinant = glm::determinant(glm::dmat3(m));
@@ -55,13 +69,12 @@ struct Instances {
   static void fill(Pack& pack, const Input& input, std::span<const std::uint32_t> primitives) {
     const InstanceGeometry& instance = input.instances[primitives[0]];
     const glm::dmat4 inverse = glm::inverse(glm::dmat4(instance.world_from_object));
-    pack = {object_tree(*instance.object), glm::mat4x3(mat4(inverse)), primitives[0]};
+    pack = {accel_detail::object_tree(*instance.object), glm::mat4x3(mat4(inverse)), primitives[0]};
   }
 
-private:
-  // Defined in accel/accel.cpp, which knows what an Accel holds.
-  static Bounds3 object_bounds(const Accel& object);
-  static const AccelTree* object_tree(const Accel& object);
+  static Ray object_ray(const Pack& pack, const Ray& ray, float t_max) {
+    return accel_detail::ray_in_object(pack.object_from_world, ray, t_max);
+  }
 };
 
 } // namespace primitives

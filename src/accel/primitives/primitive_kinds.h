@@ -15,12 +15,14 @@
 // - cut: optional, the boxes of the parts on both sides of a plane. Kinds with it take part in spatial
 //   splits.
 //
-// Two kinds have no intersect: the traversal tests triangles itself, in registers, and enters the trees of
-// instances.
+// Triangles have no intersect, for the traversal tests them itself, in registers. Kinds of instances have
+// object_ray() instead, which gives a ray in the space of the object, and the traversal enters its tree.
 
 #include "accel/primitives/curves.h"
 #include "accel/primitives/discs.h"
 #include "accel/primitives/instances.h"
+#include "accel/primitives/moving_instances.h"
+#include "accel/primitives/moving_triangles.h"
 #include "accel/primitives/spheres.h"
 #include "accel/primitives/triangles.h"
 
@@ -30,7 +32,15 @@
 namespace candela {
 
 /// In the order of PrimitiveKinds. Of hits at the same t, the lower kind is found.
-enum class PrimitiveKind : std::uint32_t { triangle, sphere, disc, instance, curve };
+enum class PrimitiveKind : std::uint32_t {
+  triangle,
+  sphere,
+  disc,
+  instance,
+  curve,
+  moving_instance,
+  moving_triangle
+};
 
 namespace accel_detail {
 
@@ -76,14 +86,17 @@ struct PrimitiveKindList {
   static constexpr std::array<float, kCount> kLeafCost{Kinds::kLeafCost...};
 };
 
-using PrimitiveKinds = PrimitiveKindList<primitives::Triangles, primitives::Spheres, primitives::Discs,
-                                         primitives::Instances, primitives::Curves>;
+using PrimitiveKinds =
+    PrimitiveKindList<primitives::Triangles, primitives::Spheres, primitives::Discs, primitives::Instances,
+                      primitives::Curves, primitives::MovingInstances, primitives::MovingTriangles>;
 
 static_assert(PrimitiveKinds::kind_of<primitives::Triangles> == PrimitiveKind::triangle);
 static_assert(PrimitiveKinds::kind_of<primitives::Spheres> == PrimitiveKind::sphere);
 static_assert(PrimitiveKinds::kind_of<primitives::Discs> == PrimitiveKind::disc);
 static_assert(PrimitiveKinds::kind_of<primitives::Instances> == PrimitiveKind::instance);
 static_assert(PrimitiveKinds::kind_of<primitives::Curves> == PrimitiveKind::curve);
+static_assert(PrimitiveKinds::kind_of<primitives::MovingInstances> == PrimitiveKind::moving_instance);
+static_assert(PrimitiveKinds::kind_of<primitives::MovingTriangles> == PrimitiveKind::moving_triangle);
 
 inline constexpr auto kNoPart = [](simd::Vec4, simd::Vec4) {};
 
@@ -91,6 +104,12 @@ inline constexpr auto kNoPart = [](simd::Vec4, simd::Vec4) {};
 template <class Kind>
 concept CuttableKind = requires(const typename Kind::Input& input) {
   Kind::cut(input, 0u, std::size_t{0}, 0.0f, kNoPart, kNoPart);
+};
+
+/// Whether primitives of the kind are objects with trees of their own, each a pack.
+template <class Kind>
+concept ObjectKind = requires(const typename Kind::Pack& pack, const Ray& ray) {
+  { Kind::object_ray(pack, ray, 0.0f) } -> std::same_as<Ray>;
 };
 
 constexpr std::size_t number(PrimitiveKind kind) { return static_cast<std::size_t>(kind); }

@@ -101,4 +101,12 @@ std::string shapes_markdown() {
   return out;
 }
 
+std::string motion_markdown() {
+  std::string out = "| key | values | default | meaning |\n|---|---|---|---|\n";
+  for (const auto& row : motion_fields())
+    out += fmt::format("| `{}` | {} | `{}` | {} |\n", row.key, markdown_cell(field_domain(row)),
+                       field_text(row, Motion()), markdown_cell(row.help));
+  return out;
+}
+
 } // namespace candela

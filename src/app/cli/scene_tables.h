@@ -1,5 +1,5 @@
 #pragma once
-// The tables of materials, lights and shapes in scenes/README.md, with their default values.
+// The tables of materials, lights, shapes and motion in scenes/README.md, with their default values.
 
 #include <string>
 
@@ -9,5 +9,6 @@ namespace candela {
 std::string materials_markdown();
 std::string lights_markdown();
 std::string shapes_markdown();
+std::string motion_markdown();
 
 } // namespace candela

@@ -89,6 +89,27 @@ void transform_fields(Ui& ui, ViewerState& state, Instance& instance, const Inst
   state.edited = true;
 }
 
+/// How the object moves while the shutter is open.
+void motion_values(Ui& ui, ViewerState& state, Instance& instance, Instance* home) {
+  if (!ui.subsection("object.motion", "Motion", instance.motion.any())) return;
+  for (const auto& row : motion_fields()) {
+    FieldContext context;
+    context.drag_speed = row.key == "angle"       ? 0.5f
+                         : row.key == "translate" ? 0.005f * state.natural_speed
+                                                  : 0.01f;
+    Motion standing;
+    context.initial = row.address(home != nullptr ? home->motion : standing);
+    const Motion before = instance.motion;
+    if (!ui.field(fmt::format("object.motion.{}", row.key), row, row.address(instance.motion), context))
+      continue;
+    if (!motion_problem(instance.motion).empty()) instance.motion = before;
+    state.edited = true;
+  }
+  const Camera& camera = state.document.scene.camera;
+  if (instance.motion.any() && camera.shutter_open == camera.shutter_close)
+    ImGui::TextDisabled("The camera's shutter is open for an instant: no blur.");
+}
+
 void material_choices(Ui& ui, ViewerState& state, Instance& instance) {
   std::vector<std::string> names;
   const auto& materials = state.document.scene.materials;
@@ -139,6 +160,7 @@ void objects_panel(Ui& ui, ViewerState& state) {
   ui.record(fmt::format("object.shape/{}", shape_name(instance.shape)));
   shape_values(ui, state, instance.shape, same_kind ? &home->shape : nullptr);
   transform_fields(ui, state, instance, home);
+  motion_values(ui, state, instance, home);
   material_choices(ui, state, instance);
   ImGui::PopID();
 }

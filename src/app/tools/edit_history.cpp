@@ -93,6 +93,7 @@ std::string instance_edit(const Instance& a, const Instance& b) {
   }
   if (a.materials != b.materials) return "material";
   if (a.shape.index() != b.shape.index()) return "shape";
+  if (a.motion != b.motion) return "motion";
   return joined(changed_keys(shape_fields(a.shape), a.shape, b.shape));
 }
 

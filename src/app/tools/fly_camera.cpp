@@ -1,5 +1,9 @@
 #include "app/tools/fly_camera.h"
 
+#include "scene/document.h"
+
+#include <fmt/format.h>
+
 namespace candela {
 
 namespace {
@@ -63,6 +67,10 @@ std::string camera_problem(const Camera& camera) {
   if (!(glm::length(camera.up) > 0)) return "camera.up: has no length: give a direction such as 0 1 0";
   const float sine = glm::length(glm::cross(glm::normalize(view), glm::normalize(camera.up)));
   if (!(sine > 1e-4f)) return "camera.up: is the view direction: tilt one of them";
+  if (const std::string problem = camera_motion_problem(camera); !problem.empty()) {
+    const std::size_t remedy = problem.find("; ");
+    return fmt::format("camera.{}: {}", problem.substr(0, remedy), problem.substr(remedy + 2));
+  }
   return {};
 }
 

@@ -53,6 +53,11 @@
 // "material_slots" (per triangle, into "slots"), "slots" (names, one of "" if left out), "source" (the file
 // it once came from, never opened). "name" is the mesh's name if it is not its key.
 //
+// A mesh deforms with "positions_end" (and "normals_end"), the vertices at time 1; that of a file with
+// "file_end", another file of the same triangles. An instance moves by its "motion", the rows of
+// motion_fields(); the camera by those of its rows that are called motion_... Its shutter_open and
+// shutter_close are the times in [0, 1] that the picture sees.
+//
 // "shape" is one of shape_names() in scene/scene_desc.h, with the values of shape_fields(): sphere (with
 // "radius", about the origin), rectangle ([-1, 1]^2 in the xy plane), disc (of radius 1 there), plane (all of
 // it; these face +z), cube ([-1, 1]^3), cylinder and cone ("radius", "height", "caps"; along z from 0), torus

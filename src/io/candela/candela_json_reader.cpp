@@ -82,8 +82,8 @@ private:
     };
     if (value.type() == JsonType::object) {
       for (auto [key, part] : value.members()) {
-        if (key.string() == "file" || key.string() == "profile" || key.string() == "texture" ||
-            key.string() == "diffuse_texture")
+        if (key.string() == "file" || key.string() == "file_end" || key.string() == "profile" ||
+            key.string() == "texture" || key.string() == "diffuse_texture")
           expect_named(part);
         else if (key.string() == "files" && part.type() == JsonType::array)
           for (JsonValue name : part) expect_named(name);

@@ -200,9 +200,14 @@ private:
         key = fmt::format("{}-{}", mesh.name.empty() ? "mesh" : mesh.name, i);
       mesh_keys_[&mesh] = key;
       std::string name = key == mesh.name ? "" : fmt::format("\"name\": {}, ", json_quoted(mesh.name));
-      if (auto path = path_below(folder_.string(), mesh.source)) {
+      const auto path = path_below(folder_.string(), mesh.source),
+                 path_end = path_below(folder_.string(), mesh.source_end);
+      if (path && (path_end || !mesh.deforms())) {
         by_reference_.insert(&mesh);
-        out.push_back(fmt::format("{}: {{{}\"file\": {}}}", json_quoted(key), name, json_quoted(*path)));
+        const std::string end =
+            mesh.deforms() ? fmt::format(", \"file_end\": {}", json_quoted(*path_end)) : std::string();
+        out.push_back(
+            fmt::format("{}: {{{}\"file\": {}{}}}", json_quoted(key), name, json_quoted(*path), end));
       } else
         out.push_back(
             fmt::format("{}: {{{}\n{}}}", json_quoted(key), name, json_mesh_members(mesh, "      ")));
@@ -218,6 +223,8 @@ private:
       members.push_back(shape(instance.shape));
       members.push_back(materials_of(instance));
       if (std::string text = transform(instance); !text.empty()) members.push_back(std::move(text));
+      if (const auto motion = changed_rows(motion_fields(), instance.motion); !motion.empty())
+        members.push_back(fmt::format("\"motion\": {{{}}}", joined(motion, ", ")));
       out.push_back(fmt::format("{{{}}}", joined(members, ", ")));
     }
     return out;

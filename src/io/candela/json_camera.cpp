@@ -31,6 +31,11 @@ Camera read_json_camera(JsonValue object, const std::string& element) {
     throw input_error(object.where(), element, "position and target are the same", "move one of them");
   if (glm::cross(glm::dvec3(c.target) - glm::dvec3(c.position), glm::dvec3(c.up)) == glm::dvec3(0))
     throw input_error(object.where(), element, "up is parallel to the view", "give another up");
+  if (const std::string problem = camera_motion_problem(c); !problem.empty()) {
+    const std::size_t key = problem.find(": "), remedy = problem.find("; ");
+    throw input_error(object.where(), fmt::format("{}.{}", element, problem.substr(0, key)),
+                      problem.substr(key + 2, remedy - key - 2), problem.substr(remedy + 2));
+  }
   return c;
 }
 

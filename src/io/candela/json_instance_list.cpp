@@ -50,10 +50,11 @@ void JsonInstanceList::read_meshes(JsonValue object) {
     std::string element = fmt::format("meshes.{}", key.string().substr(0, 60));
     expect(value, JsonType::object, element);
     std::string name = key.string();
-    std::optional<JsonValue> file;
+    std::optional<JsonValue> file, file_end;
     for (auto [part_key, part_value] : value.members()) {
       if (part_key.string() == "name") name = read_string(part_value, element + ".name");
       if (part_key.string() == "file") file = part_value;
+      if (part_key.string() == "file_end") file_end = part_value;
     }
     if (!file) {
       meshes_[key.string()] = {
@@ -61,12 +62,41 @@ void JsonInstanceList::read_meshes(JsonValue object) {
           nullptr};
       continue;
     }
-    constexpr std::string_view kKeys[] = {"file", "name"};
+    constexpr std::string_view kKeys[] = {"file", "file_end", "name"};
     for (auto [part_key, part_value] : value.members())
       if (std::ranges::find(kKeys, part_key.string()) == std::end(kKeys))
         throw unknown_key(part_key, element, kKeys);
-    meshes_[key.string()] = mesh_of_file(*file, name, element + ".file");
+    meshes_[key.string()] = file_end ? deforming_mesh(*file, *file_end, name, element)
+                                     : mesh_of_file(*file, name, element + ".file");
   }
+}
+
+/// The mesh of a file with the vertices of another one at time 1.
+JsonInstanceList::NamedMesh JsonInstanceList::deforming_mesh(JsonValue begin, JsonValue end,
+                                                             const std::string& name,
+                                                             const std::string& element) {
+  NamedMesh mesh = mesh_of_file(begin, name, element + ".file");
+  const std::string end_element = element + ".file_end";
+  const std::shared_ptr<const Mesh> target = mesh_of_file(end, "", end_element).mesh;
+  if (const std::string problem = topology_problem(*mesh.mesh, *target); !problem.empty())
+    throw input_error(end.where(), end_element, problem,
+                      "export both from one mesh, made of triangles: its vertices alone may differ");
+  mesh.mesh = std::make_shared<const Mesh>(deforming(*mesh.mesh, *target));
+  return mesh;
+}
+
+Motion JsonInstanceList::read_motion(JsonValue object, const std::string& element) const {
+  expect(object, JsonType::object, element);
+  Motion motion;
+  for (auto [key, value] : object.members())
+    if (!read_row(motion_fields(), motion, key, value, element))
+      throw unknown_key(key, element, keys_of(motion_fields(), {}));
+  if (const std::string problem = motion_problem(motion); !problem.empty()) {
+    const std::size_t name = problem.find(": "), remedy = problem.find("; ");
+    throw input_error(object.where(), fmt::format("{}.{}", element, problem.substr(0, name)),
+                      problem.substr(name + 2, remedy - name - 2), problem.substr(remedy + 2));
+  }
+  return motion;
 }
 
 JsonInstanceList::NamedMesh JsonInstanceList::mesh_of_file(JsonValue value, const std::string& name,
@@ -82,9 +112,10 @@ void JsonInstanceList::read_instances(JsonValue array) {
 }
 
 void JsonInstanceList::read_instance(JsonValue object, const std::string& element) {
-  constexpr std::string_view kKeys[] = {
-      "name",         "shape", "mesh", "file",  "material", "materials", "transform", "radius", "height",
-      "minor_radius", "caps",  "form", "basis", "strands",  "thickness", "width",     "widths", "source"};
+  constexpr std::string_view kKeys[] = {"name",      "shape",     "mesh",   "file",    "material",
+                                        "materials", "transform", "radius", "height",  "minor_radius",
+                                        "caps",      "form",      "basis",  "strands", "thickness",
+                                        "width",     "widths",    "source", "motion"};
   std::map<std::string_view, JsonValue> parts;
   for (auto [key, value] : object.members()) {
     auto known = std::ranges::find(kKeys, key.string());
@@ -100,6 +131,8 @@ void JsonInstanceList::read_instance(JsonValue object, const std::string& elemen
   glm::dmat4 world_from_object(1);
   if (const auto* transform = part("transform"))
     world_from_object = read_transform(*transform, element + ".transform");
+
+  if (const auto* motion = part("motion")) out.motion = read_motion(*motion, element + ".motion");
 
   bool names_mesh = part("mesh") || part("file");
   const auto* shape = part("shape");

@@ -28,6 +28,9 @@ private:
   };
 
   NamedMesh mesh_of_file(JsonValue value, const std::string& name, const std::string& element);
+  NamedMesh deforming_mesh(JsonValue begin, JsonValue end, const std::string& name,
+                           const std::string& element);
+  Motion read_motion(JsonValue object, const std::string& element) const;
   void read_instance(JsonValue object, const std::string& element);
   std::shared_ptr<const Strands> read_strands(const Parts& parts, JsonValue object,
                                               const std::string& element) const;

@@ -79,17 +79,25 @@ void make_unit(std::vector<vec3>& normals, const WarningList& warnings) {
 
 Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view element,
                     const WarningList& warnings) {
-  constexpr std::string_view kKeys[] = {"name",          "positions",      "triangles", "normals",
-                                        "uvs",           "material_slots", "slots",     "source",
-                                        "vertex_colors", "face_colors"};
+  constexpr std::string_view kKeys[] = {
+      "name",   "positions",     "triangles",   "normals",       "uvs",         "material_slots", "slots",
+      "source", "vertex_colors", "face_colors", "positions_end", "normals_end", "source_end"};
   Mesh mesh;
   mesh.name = name;
   // Counts are checked after all members have been found.
-  std::optional<JsonValue> triangles, normals, uvs, slots, vertex_colors, face_colors;
+  std::optional<JsonValue> triangles, normals, uvs, slots, vertex_colors, face_colors, positions_end,
+      normals_end;
   for (auto [key, value] : object.members()) {
     std::string where = fmt::format("{}.{}", element, key.string());
     if (key.string() == "positions") {
       mesh.positions = read_vectors<vec3, 3>(value, where, warnings);
+    } else if (key.string() == "positions_end") {
+      positions_end = value;
+      mesh.positions_end = read_vectors<vec3, 3>(value, where, warnings);
+    } else if (key.string() == "normals_end") {
+      normals_end = value;
+      mesh.normals_end = read_vectors<vec3, 3>(value, where, warnings);
+      make_unit(mesh.normals_end, warnings);
     } else if (key.string() == "triangles") {
       triangles = value;
     } else if (key.string() == "normals") {
@@ -115,6 +123,8 @@ Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view 
         throw input_error(value.where(), where, "it is empty", "name one slot at least, or leave it out");
     } else if (key.string() == "source") {
       mesh.source = read_string(value, where);
+    } else if (key.string() == "source_end") {
+      mesh.source_end = read_string(value, where);
     } else if (key.string() != "name") {
       throw unknown_key(key, element, kKeys);
     }
@@ -128,6 +138,16 @@ Mesh read_json_mesh(JsonValue object, const std::string& name, std::string_view 
     check_count(*normals, mesh.positions.size(), fmt::format("{}.normals", element), "positions");
   if (uvs && !mesh.uvs.empty())
     check_count(*uvs, mesh.positions.size(), fmt::format("{}.uvs", element), "positions");
+  if (positions_end)
+    check_count(*positions_end, mesh.positions.size(), fmt::format("{}.positions_end", element), "positions");
+  if (normals_end && !positions_end)
+    throw input_error(normals_end->where(), fmt::format("{}.normals_end", element),
+                      "the mesh has no positions at time 1", "give \"positions_end\", too");
+  if (positions_end && (normals_end ? mesh.normals_end.size() : 0) != mesh.normals.size())
+    throw input_error(
+        (normals_end ? *normals_end : *positions_end).where(), fmt::format("{}.normals_end", element),
+        fmt::format("there are {} for {} normals", mesh.normals_end.size(), mesh.normals.size()),
+        "give one for each of \"normals\", or leave both out");
   if (vertex_colors && !mesh.vertex_colors.empty())
     check_count(*vertex_colors, mesh.positions.size(), fmt::format("{}.vertex_colors", element), "positions");
   if (face_colors && !mesh.face_colors.empty())
@@ -176,6 +196,8 @@ std::string json_mesh_members(const Mesh& mesh, std::string_view indent) {
   std::string out = array_member("positions", mesh.positions, indent, vec3_text);
   auto add = [&](std::string member) { out += ",\n" + std::move(member); };
   if (!mesh.normals.empty()) add(array_member("normals", mesh.normals, indent, vec3_text));
+  if (mesh.deforms()) add(array_member("positions_end", mesh.positions_end, indent, vec3_text));
+  if (!mesh.normals_end.empty()) add(array_member("normals_end", mesh.normals_end, indent, vec3_text));
   if (!mesh.uvs.empty())
     add(array_member("uvs", mesh.uvs, indent,
                      [](const vec2& v) { return fmt::format("[{}, {}]", v.x, v.y); }));
@@ -189,6 +211,8 @@ std::string json_mesh_members(const Mesh& mesh, std::string_view indent) {
   if (mesh.slot_names != std::vector<std::string>{""})
     add(array_member("slots", mesh.slot_names, indent, [](const std::string& s) { return json_quoted(s); }));
   if (!mesh.source.empty()) add(fmt::format("{}\"source\": {}", indent, json_quoted(mesh.source)));
+  if (!mesh.source_end.empty())
+    add(fmt::format("{}\"source_end\": {}", indent, json_quoted(mesh.source_end)));
   return out;
 }
 

@@ -16,6 +16,7 @@ CameraView view_of(const Document& document) {
 std::optional<Pick> pick(const RenderScene& scene, const Document& document, vec2 film_position) {
   const CameraView view = view_of(document);
   Ray ray = view.sight(film_position);
+  ray.time = document.scene.camera.shutter_open;
   auto hit = scene.geometry().accel().intersect(ray);
   if (!hit) return std::nullopt;
   SurfaceInteraction surface = scene.geometry().surface(ray, *hit);
@@ -38,7 +39,8 @@ DepthMap depth_map(const RenderScene& scene, const Document& document, int strid
   map.depth.reserve(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
-      const Ray ray = view.sight((vec2(x, y) + 0.5f) * static_cast<float>(stride));
+      Ray ray = view.sight((vec2(x, y) + 0.5f) * static_cast<float>(stride));
+      ray.time = document.scene.camera.shutter_open;
       const auto hit = scene.geometry().accel().intersect(ray);
       map.depth.push_back(hit ? view.view_depth(ray.at(hit->t)) : kInfinity);
     }

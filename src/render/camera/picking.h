@@ -20,7 +20,8 @@ struct Pick {
   int material = -1;              ///< index into SceneDesc::materials
 };
 
-/// The first surface under the centre of a pixel (film coordinates in pixels, top-left origin).
+/// The first surface under the centre of a pixel (film coordinates in pixels, top-left origin): of the camera
+/// of time 0, whose pose tools edit, and where objects are when the shutter opens.
 std::optional<Pick> pick(const RenderScene& scene, const Document& document, vec2 film_position);
 
 /// View depths under a lattice of pixels, as a pinhole sees them.

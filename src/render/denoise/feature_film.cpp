@@ -76,7 +76,7 @@ public:
       vec3 wi = frame.to_world(s->wi);
       if (!same_hemisphere(wo_local, s->wi)) passage.media.cross(material.media, outside);
       ray = {offset_ray_origin(surface.position, surface.position_error, surface.geometric_normal, wi), 0, wi,
-             kInfinity};
+             kInfinity, ray.time};
       if (cone != nullptr) seen_along = seen_along.after(surface.position, 0);
     }
   }
@@ -139,9 +139,10 @@ bool render_features(const RenderScene& scene, const Document& document, std::ui
       for (std::uint32_t i = film.spp_; i < spp; ++i) {
         const auto start = rays.start(uvec2(film.origin_ + ivec2(x, y)), i, sampler);
         if (!start) continue; // black
-        const vec3 origin = start->ray.origin, direction = start->ray.direction;
-        const Features f =
-            tracer.trace(start->ray, camera_media.at(origin), view.pixel_cone(direction), sampler);
+        const vec3 origin = start->ray.origin,
+                   direction = rays.motion().direction_at_start(start->ray.direction, start->ray.time);
+        const Features f = tracer.trace(start->ray, camera_media.at(origin, start->ray.time),
+                                        view.pixel_cone(direction), sampler);
         const vec3* groups[] = {&f.albedo, &f.normal, &f.position};
         for (std::size_t k = 0; k < FeatureFilm::kChannels; ++k) {
           float v = start->weight * (*groups[k / 3])[static_cast<glm::length_t>(k % 3)];

@@ -108,20 +108,26 @@ void PixelSampler::start(std::span<const SampleIndex> indices) {
   lens_.assign(indices.size(), vec2(0));
   Sampler::get_2d(draws_, Dimension::film, film_);
   if (rays_.uses_lens_sample()) Sampler::get_2d(draws_, Dimension::lens, lens_);
+  time_.assign(indices.size(), 0);
+  if (rays_.uses_time_sample()) Sampler::get_1d(draws_, Dimension::time, time_);
   weights_.resize(indices.size());
   sample_of_.resize(indices.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < indices.size(); ++i) {
     PathStart& start = starts_[count];
     if (count != i) start.sampler = starts_[i].sampler;
-    const std::optional<float> weight = rays_.at(indices[i].pixel, film_[i], lens_[i], start.ray);
+    const std::optional<float> weight = rays_.at(indices[i].pixel, film_[i], lens_[i], time_[i], start.ray);
     if (!weight) continue;
     weights_[count] = *weight;
     sample_of_[count++] = i;
-    if (scene_.filters_textures()) start.cone = camera_view_.pixel_cone(start.ray.direction);
-    if (scene_.has_media()) start.media = camera_media_.at(start.ray.origin);
+    if (scene_.filters_textures()) start.cone = pixel_cone(start.ray);
+    if (scene_.has_media()) start.media = camera_media_.at(start.ray.origin, start.ray.time);
   }
   starts_.erase(starts_.begin() + static_cast<std::ptrdiff_t>(count), starts_.end());
+}
+
+RayCone PixelSampler::pixel_cone(const Ray& ray) const {
+  return camera_view_.pixel_cone(rays_.motion().direction_at_start(ray.direction, ray.time));
 }
 
 void PixelSampler::view_first_hits(std::span<PixelSample> results, RayCounts& counts) {
@@ -138,8 +144,9 @@ void PixelSampler::view_first_hits(std::span<PixelSample> results, RayCounts& co
   for (std::size_t i = 0; i < starts_.size() && !stop_.asked(); ++i) {
     PathStart& start = starts_[i];
     const ConeOfRay cone{start.cone, start.ray.origin};
+    const vec3 forward = rays_.motion().direction_at(camera_view_.forward(), start.ray.time);
     results[sample_of_[i]] = {first_hit_value(scene_, start.ray, start.media, hits_[i].t < kInfinity,
-                                              hits_[i], camera_view_.forward(), view_, start.sampler, counts,
+                                              hits_[i], forward, view_, start.sampler, counts,
                                               scene_.filters_textures() ? &cone : nullptr),
                               {}};
   }

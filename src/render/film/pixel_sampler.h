@@ -44,6 +44,7 @@ public:
 private:
   void evaluate(std::span<const SampleIndex> indices, std::span<PixelSample> results, RayCounts& counts);
   void start(std::span<const SampleIndex> indices);
+  RayCone pixel_cone(const Ray& ray) const;
   bool shows_light() const;
   bool follows_paths() const;
   void view_first_hits(std::span<PixelSample> results, RayCounts& counts);
@@ -64,6 +65,7 @@ private:
   // Parallel to the samples in flight:
   std::vector<Sampler::Draw> draws_;
   std::vector<vec2> film_, lens_;
+  std::vector<float> time_;
   std::size_t layer_count_ = 0;    ///< 0: they are not kept
   std::vector<PathSample> layers_; ///< so many of each
   // Parallel to those of them that have a ray:

@@ -18,7 +18,7 @@ float ambient_occlusion(const RenderScene& scene, const PathStart& start, Sample
   for (int i = 0; i < n; ++i) {
     vec3 local =
         sample_cosine_hemisphere(sampler.get_2d(Dimension::bsdf_direction, static_cast<std::uint32_t>(i)));
-    Ray probe = spawn_ray(surface, frame.to_world(local));
+    Ray probe = spawn_ray(surface, frame.to_world(local), ray.time);
     if (settings.ao.distance > 0) probe.t_max = settings.ao.distance;
     open += !is_occluded(scene, probe, passage.media, counts);
   }

@@ -82,11 +82,11 @@ void DirectLight::weight_samples(const RenderScene& scene, const VertexLanes& ve
     shadow.light = contribution * (weight / (pdf * n));
     if (points.layered != nullptr)
       shadow.layer = scene.layer_of_light(static_cast<std::uint32_t>(query.light - scene.lights().data()));
-    set_ray(shadow);
+    set_ray(shadow, vertices.time[i]);
   }
 }
 
-void DirectLight::set_ray(ShadowRay& shadow) const {
+void DirectLight::set_ray(ShadowRay& shadow, float time) const {
   const std::size_t i = shadow.lane;
   const bool infinite = lights_.infinite[i] != 0;
   shadow.target = {directions_.target[i], infinite};
@@ -95,6 +95,7 @@ void DirectLight::set_ray(ShadowRay& shadow) const {
   // Both ends are off their surfaces by their error bounds, so what is left must be free but for what the
   // distance adds to the rounding of t.
   shadow.ray.t_max = infinite ? kInfinity : 1 - gamma_bound(16);
+  shadow.ray.time = time;
 }
 
 /// Gives a point the light of the shadow ray that reaches it.

@@ -76,7 +76,7 @@ private:
                              LightDirectionLanes& directions);
   void weight_samples(const RenderScene& scene, const VertexLanes& vertices, const ShadingPoints& points,
                       const PathSettings& settings);
-  void set_ray(ShadowRay& shadow) const;
+  void set_ray(ShadowRay& shadow, float time) const;
   static void add(ShadingPoints& points, const ShadowRay& shadow, Spectrum light);
   void look_up_radiance(const RenderScene& scene);
   void trace_shadow_rays(const RenderScene& scene, ShadingPoints& points, RayCounts& counts, StopPoll& stop);

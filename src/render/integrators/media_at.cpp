@@ -14,8 +14,9 @@ constexpr int kMostSurfaces = 4096;
 /// Calls visit(hit's surface, whether the ray comes from its outside, distance from the beginning) at all
 /// surfaces along the unit direction.
 template <class Visit>
-void for_each_surface(const RenderScene& scene, vec3 from, vec3 direction, float distance, Visit visit) {
-  Ray ray{from, 0, direction, distance};
+void for_each_surface(const RenderScene& scene, vec3 from, vec3 direction, float distance, float time,
+                      Visit visit) {
+  Ray ray{from, 0, direction, distance, time};
   float gone = 0;
   for (int i = 0; i < kMostSurfaces; ++i) {
     const auto hit = scene.geometry().accel().intersect(ray);
@@ -31,7 +32,7 @@ void for_each_surface(const RenderScene& scene, vec3 from, vec3 direction, float
 
 } // namespace
 
-MediumStack media_at(const RenderScene& scene, vec3 point) {
+MediumStack media_at(const RenderScene& scene, vec3 point, float time) {
   // No axes of the scene's: a ray along a wall, or through an edge, would tell nothing.
   constexpr int kPairs = 3;
   const vec3 directions[kPairs] = {glm::normalize(vec3(0.83f, 0.41f, 0.37f)),
@@ -47,7 +48,7 @@ MediumStack media_at(const RenderScene& scene, vec3 point) {
   std::map<std::pair<Key, int>, Found> found;
   for (int k = 0; k < 2 * kPairs; ++k) {
     std::map<Key, int> entered, left;
-    for_each_surface(scene, point, k < kPairs ? directions[k] : -directions[k - kPairs], kInfinity,
+    for_each_surface(scene, point, k < kPairs ? directions[k] : -directions[k - kPairs], kInfinity, time,
                      [&](const SurfaceInteraction& s, bool from_outside, float distance) {
                        const MediumId inside = scene.material(s.material).media.inside;
                        if (!inside) return;
@@ -70,10 +71,10 @@ MediumStack media_at(const RenderScene& scene, vec3 point) {
   return media;
 }
 
-void move_between(const RenderScene& scene, vec3 from, vec3 to, MediumStack& media) {
+void move_between(const RenderScene& scene, vec3 from, vec3 to, MediumStack& media, float time) {
   const float distance = glm::length(to - from);
   if (!(distance > 0)) return;
-  for_each_surface(scene, from, (to - from) / distance, distance,
+  for_each_surface(scene, from, (to - from) / distance, distance, time,
                    [&](const SurfaceInteraction& s, bool from_outside, float) {
                      media.cross(scene.material(s.material).media, from_outside);
                    });

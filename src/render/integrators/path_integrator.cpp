@@ -212,7 +212,8 @@ void PathTracer::make_vertices(std::size_t begin, std::size_t count, int depth) 
   vertices_.set(scene_, {rays.data(), count}, std::span(hits_).subspan(begin, count),
                 {media.data(), media_count}, {cones.data(), scene_.filters_textures() ? count : 0});
   if (smooths_terminator_)
-    smooth_terminator(vertices_, scene_.geometry(), std::span(hits_).subspan(begin, count));
+    smooth_terminator(vertices_, scene_.geometry(), {rays.data(), count},
+                      std::span(hits_).subspan(begin, count));
   scattering_.clear();
   scattering_flags_ = BsdfFlags::none;
   shading_points_.count = 0;
@@ -348,6 +349,7 @@ void PathTracer::continue_paths() {
     Path& path = next_paths_.emplace_back(*direction.sampler);
     path.ray.origin = continuation_.origin[i];
     path.ray.direction = continuation_.direction[i];
+    path.ray.time = from.ray.time;
     path.throughput = continuation_.throughput[i];
     path.eta_scale = continuation_.eta_scale[i];
     path.result = from.result;

@@ -9,9 +9,10 @@ struct LeavingPoint {
   vec3 position, normal;
 };
 
-std::optional<LeavingPoint> leaving_point(const Geometry& geometry, const Hit& hit, vec3 position,
-                                          vec3 position_error, vec3 geometric_normal, vec3 wo, float side) {
-  const auto triangle = geometry.smooth_triangle(hit);
+std::optional<LeavingPoint> leaving_point(const Geometry& geometry, const Ray& ray, const Hit& hit,
+                                          vec3 position, vec3 position_error, vec3 geometric_normal, vec3 wo,
+                                          float side) {
+  const auto triangle = geometry.smooth_triangle(ray, hit);
   if (!triangle) return std::nullopt;
   const vec3 offset = offset_to_smooth_surface(*triangle, hit.u, hit.v, position);
   const vec3 outwards = side > 0 ? geometric_normal : -geometric_normal;
@@ -27,11 +28,12 @@ bool only_reflects(const Bsdf& bsdf) { return !has_any(bsdf_flags(bsdf), BsdfFla
 
 } // namespace
 
-void smooth_terminator(VertexLanes& v, const Geometry& geometry, std::span<const Hit> hits) {
+void smooth_terminator(VertexLanes& v, const Geometry& geometry, std::span<const Ray* const> rays,
+                       std::span<const Hit> hits) {
   for (std::size_t i = 0; i < v.count; ++i) {
     if (!v.scatters(i) || !only_reflects(v.bsdf(i))) continue;
     const vec3 wo = Basis::from_normal(v.normal[i]).to_world(v.wo_local[i]);
-    const auto leaving = leaving_point(geometry, hits[i], v.position[i], v.position_error[i],
+    const auto leaving = leaving_point(geometry, *rays[i], hits[i], v.position[i], v.position_error[i],
                                        v.geometric_normal[i], wo, v.side[i]);
     if (!leaving) continue;
     v.position.set(i, leaving->position);
@@ -42,11 +44,12 @@ void smooth_terminator(VertexLanes& v, const Geometry& geometry, std::span<const
   }
 }
 
-void smooth_terminator(Vertex& v, const Bsdf& bsdf, const Geometry& geometry, const Hit& hit) {
+void smooth_terminator(Vertex& v, const Bsdf& bsdf, const Geometry& geometry, const Ray& ray,
+                       const Hit& hit) {
   if (!only_reflects(bsdf)) return;
   SurfaceInteraction& s = v.surface;
   const auto leaving =
-      leaving_point(geometry, hit, s.position, s.position_error, s.geometric_normal, v.wo, v.side);
+      leaving_point(geometry, ray, hit, s.position, s.position_error, s.geometric_normal, v.wo, v.side);
   if (!leaving) return;
   s.position = leaving->position;
   s.geometric_normal = leaving->normal;

@@ -17,8 +17,10 @@ namespace candela {
 /// Where a surface transmits, its rays leave on both sides of the triangle; it is left as it is.
 
 /// Of each lane where hits[i] was met.
-void smooth_terminator(VertexLanes& vertices, const Geometry& geometry, std::span<const Hit> hits);
+void smooth_terminator(VertexLanes& vertices, const Geometry& geometry, std::span<const Ray* const> rays,
+                       std::span<const Hit> hits);
 /// Of one vertex with this BSDF.
-void smooth_terminator(Vertex& vertex, const Bsdf& bsdf, const Geometry& geometry, const Hit& hit);
+void smooth_terminator(Vertex& vertex, const Bsdf& bsdf, const Geometry& geometry, const Ray& ray,
+                       const Hit& hit);
 
 } // namespace candela

@@ -9,9 +9,10 @@
 
 namespace candela {
 
-/// Ray from a surface point towards w (unit), clear of the surface's own rounding.
-inline Ray spawn_ray(const SurfaceInteraction& s, vec3 w) {
-  return {offset_ray_origin(s.position, s.position_error, s.geometric_normal, w), 0, w, kInfinity};
+/// Ray from a surface point towards w (unit), clear of the surface's own rounding, at the time of the ray
+/// that met the point.
+inline Ray spawn_ray(const SurfaceInteraction& s, vec3 w, float time) {
+  return {offset_ray_origin(s.position, s.position_error, s.geometric_normal, w), 0, w, kInfinity, time};
 }
 
 /// A ray's way through media.
@@ -122,6 +123,7 @@ struct Vertex {
   Basis frame; ///< about the shading normal
   vec3 wo_local;
   LightSamplingContext light_context;
+  float time; ///< of the ray
 
   /// Made in place: copies of what has just been written by parts stall the processor.
   Vertex(const RenderScene& scene, const Ray& ray, const Hit& hit)
@@ -134,7 +136,8 @@ struct Vertex {
                                                     : surface.shading_normal,
                                                 wo, side))),
         wo_local(frame.to_local(wo)), light_context{surface.position, side > 0 ? surface.geometric_normal
-                                                                               : -surface.geometric_normal} {}
+                                                                               : -surface.geometric_normal},
+        time(ray.time) {}
 
   /// Whether anything scatters here: not where the surface is seen edge-on.
   bool scatters() const { return wo_local.z * side > 0; }

@@ -75,6 +75,7 @@ void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays
   for (std::uint32_t i = 0; i < count; ++i) {
     const Hit& hit = hits[i];
     wo.set(i, -rays[i]->direction);
+    time[i] = rays[i]->time;
     material[i] = &scene.material(geometry.material_of(hit));
     if (material[i]->back != nullptr) material[i] = &seen_side(*material[i], geometry, *rays[i], hit);
     any_oriented |= material[i]->oriented;
@@ -162,6 +163,7 @@ void VertexLanes::set_one(const Vertex& vertex, const Bsdf& bsdf) {
   normal.set(0, vertex.frame.n);
   wo_local.set(0, vertex.wo_local);
   side[0] = vertex.side;
+  time[0] = vertex.time;
   light_context[0] = vertex.light_context;
   material[0] = vertex.material;
   varying[0] = bsdf;

@@ -17,6 +17,7 @@ struct VertexLanes {
   Vec3Lanes normal;   ///< visible_normal
   Vec3Lanes wo_local; ///< unit, where the ray came from, about the normal
   Lanes<float> side;  ///< cosine of wo with the geometric normal: > 0 outside
+  Lanes<float> time;  ///< of the ray
   Lanes<LightSamplingContext> light_context;
   Lanes<const SurfaceMaterial*> material;
   Lanes<Bsdf> varying; ///< where the BSDF depends on the hit (SurfaceMaterial::varies)

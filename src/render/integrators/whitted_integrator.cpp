@@ -79,7 +79,7 @@ private:
           material.textured != nullptr ? evaluate_bsdf(material, texture_at(), blends) : material.bsdf;
       if (material.oriented) orient_bsdf(bsdf, scene_.geometry(), path.ray, hit, vertex.frame.n);
       set_outside(scene_, material, path.media, outside, bsdf);
-      if (settings_.smooth_terminator) smooth_terminator(vertex, bsdf, scene_.geometry(), hit);
+      if (settings_.smooth_terminator) smooth_terminator(vertex, bsdf, scene_.geometry(), path.ray, hit);
       if (shows_depth(settings_, depth + 1) && bsdf_delta_probability(bsdf, vertex.wo_local) < 1) {
         Spectrum light =
             direct_light_.estimate(scene_, vertex, bsdf, sampler_, settings_, counts_, stop_, &path.media);
@@ -142,7 +142,7 @@ private:
       path.throughput /= q;
     }
     if (!reflected) path.media.cross(vertex.material->media, vertex.side > 0);
-    path.ray = spawn_ray(vertex.surface, wi);
+    path.ray = spawn_ray(vertex.surface, wi, path.ray.time);
     if (scene_.filters_textures()) path.cone = path.cone.after(vertex.surface.position, 0);
     return true;
   }

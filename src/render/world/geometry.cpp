@@ -20,12 +20,26 @@ SurfaceTangents Geometry::tangents(const Ray& ray, const Hit& hit) const {
   return surfaces_.visit(hit, [&](const auto& kind, std::uint64_t) { return kind.tangents(ray, hit); });
 }
 
-std::optional<SmoothTriangle> Geometry::smooth_triangle(const Hit& hit) const {
+std::optional<SmoothTriangle> Geometry::smooth_triangle(const Ray& ray, const Hit& hit) const {
   return surfaces_.visit(hit, [&](const auto& kind, std::uint64_t) -> std::optional<SmoothTriangle> {
-    if constexpr (requires { kind.smooth_triangle(hit); })
-      return kind.smooth_triangle(hit);
+    if constexpr (requires { kind.smooth_triangle(ray, hit); })
+      return kind.smooth_triangle(ray, hit);
     else
       return std::nullopt;
+  });
+}
+
+std::uint64_t Geometry::number_of(const Hit& hit) const {
+  return surfaces_.visit(hit,
+                         [&](const auto& kind, std::uint64_t first) { return first + kind.number_of(hit); });
+}
+
+std::uint32_t Geometry::triangle_of_instance(const Hit& hit) const {
+  return surfaces_.visit(hit, [&](const auto& kind, std::uint64_t) -> std::uint32_t {
+    if constexpr (requires { kind.triangle_of_instance(hit); })
+      return kind.triangle_of_instance(hit);
+    else
+      return hit.primitive;
   });
 }
 

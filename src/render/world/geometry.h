@@ -32,16 +32,25 @@ public:
   vec2 uv(const Ray& ray, const Hit& hit) const;
   /// How the texture coordinates of uv() change about a hit of `ray`: apart from the rest likewise.
   SurfaceTangents tangents(const Ray& ray, const Hit& hit) const;
+  /// Whether anything depends on the time of the ray.
+  bool moves() const {
+    return surfaces_.of<MovingInstanceSurfaces>().count() + surfaces_.of<MovingTriangleSurfaces>().count() >
+           0;
+  }
   /// Whether any triangle has vertices' normals.
   bool has_smooth_triangles() const { return has_smooth_triangles_; }
-  /// The triangle of a hit, if its vertices have normals.
-  std::optional<SmoothTriangle> smooth_triangle(const Hit& hit) const;
+  /// The triangle of a hit of `ray`, if its vertices have normals.
+  std::optional<SmoothTriangle> smooth_triangle(const Ray& ray, const Hit& hit) const;
   /// Material index of a hit, without the rest: what opacity needs. Most are triangles.
   std::uint32_t material_of(const Hit& hit) const {
     if (hit.kind == PrimitiveKind::triangle && hit.instance == kNoInstance)
       return world().materials[hit.primitive];
     return other_material_of(hit);
   }
+  /// Number among all primitives, as SurfaceInteraction::emitter.
+  std::uint64_t number_of(const Hit& hit) const;
+  /// Of a hit of an instance of a mesh: the triangle's index among those of its instance.
+  std::uint32_t triangle_of_instance(const Hit& hit) const;
   /// Index into the instances that were built from.
   std::uint32_t instance_of(const Hit& hit) const;
 

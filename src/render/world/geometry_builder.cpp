@@ -58,7 +58,7 @@ public:
                   const Geometry::Objects& known)
       : instances_(instances) {
     for (const Instance& instance : instances_) {
-      meshes_.push_back(mesh_of(instance));
+      meshes_.push_back(is_in_motion(instance) ? InstanceMesh() : mesh_of(instance));
       if (meshes_.back().mesh) ++uses_[meshes_.back().mesh.get()];
     }
     for (const auto& object : known) known_objects_.emplace(object->mesh.get(), object);
@@ -66,13 +66,14 @@ public:
     std::size_t saved = 0; // triangles that are not baked
     for (const Instance& instance : instances_)
       if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape))
-        if (is_movable(**mesh) && !is_shared(**mesh)) saved += (*mesh)->triangles.size();
+        if (!is_in_motion(instance) && is_movable(**mesh) && !is_shared(**mesh))
+          saved += (*mesh)->triangles.size();
     if (saved < kWorthSaving) return;
     g_->quality_ = BuildQuality::fast;
   }
 
   std::shared_ptr<const Geometry> build(Progress* progress) {
-    progress_ = progress;
+    progress_ = progress_of_build_ = progress;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
       if (progress) progress->check();
       add(static_cast<std::uint32_t>(i));
@@ -101,17 +102,20 @@ public:
         static_cast<typename Kind::Primitives::Input&>(world) = kind.input();
     });
     world.instances = placed;
+    const std::vector<MovingInstanceGeometry> moving = moving_.geometries();
+    world.moving_instances = moving;
     g_->accel_ = Accel::build(world, g_->quality_, progress);
     bool endless = std::ranges::any_of(
         instances_, [](const Instance& i) { return std::holds_alternative<PlaneShape>(i.shape); });
-    g_->has_smooth_triangles_ = triangles_.has_smooth() || instanced_.has_smooth();
+    g_->has_smooth_triangles_ = triangles_.has_smooth() || instanced_.has_smooth() || moving_.has_smooth() ||
+                                g_->surfaces_.of<MovingTriangleSurfaces>().has_smooth();
     g_->finite_bounds_ = endless ? instance_bounds(instances_) : g_->accel_.bounds();
     return g_;
   }
 
 private:
   std::uint64_t accel_work() const {
-    std::size_t primitives = instanced_.placed.size();
+    std::size_t primitives = instanced_.placed.size() + moving_.placed.size();
     g_->surfaces_.for_each([&](const auto& kind, std::uint64_t) {
       if constexpr (requires { kind.input(); }) primitives += kind.count();
     });
@@ -131,6 +135,12 @@ private:
     return uses > 1 && uses * mesh.triangles.size() > kBakeLimit;
   }
   static bool is_movable(const Mesh& mesh) { return mesh.triangles.size() >= kMovable; }
+
+  /// Whether it moves or deforms, so that it is no mesh that stands still.
+  static bool is_in_motion(const Instance& instance) {
+    const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape);
+    return instance.motion.any() || (mesh != nullptr && (*mesh)->deforms());
+  }
 
   /// The mesh that an instance is made of, if it is, and where it lies.
   struct InstanceMesh {
@@ -155,6 +165,10 @@ private:
 
   void add(std::uint32_t index) {
     const Instance& instance = instances_[index];
+    if (instance.motion.any()) {
+      add_moving(index);
+      return;
+    }
     if (const auto& [mesh, world_from_mesh] = meshes_[index]; mesh) {
       // Meshes of shapes are made anew every time, so that none is ever known.
       const bool moves = g_->quality_ == BuildQuality::fast && is_movable(*mesh) &&
@@ -225,6 +239,20 @@ private:
     }
   }
 
+  /// Objects of the same shape and materials share their geometry.
+  void add_moving(std::uint32_t index) {
+    Instance alone = instances_[index];
+    alone.name.clear();
+    alone.motion = {};
+    alone.world_from_object = mat4(1);
+    auto known = std::ranges::find(moving_shapes_, alone);
+    if (known == moving_shapes_.end()) {
+      moving_.objects.push_back(Geometry::build({alone}, BuildQuality::high, progress_of_build_));
+      known = moving_shapes_.insert(known, std::move(alone));
+    }
+    moving_.place(static_cast<std::uint32_t>(known - moving_shapes_.begin()), instances_[index], index);
+  }
+
   void bake_sphere(float radius, std::uint32_t index) {
     const std::size_t first = triangles_.set.triangles.size();
     bake(tessellated_sphere(radius), instances_[index].world_from_object, index);
@@ -285,7 +313,9 @@ private:
   std::shared_ptr<Geometry> g_ = std::make_shared<Geometry>();
   TriangleSurfaces& triangles_ = g_->surfaces_.of<TriangleSurfaces>();
   InstanceSurfaces& instanced_ = g_->surfaces_.of<InstanceSurfaces>();
-  std::vector<InstanceMesh> meshes_; ///< parallel to instances_
+  MovingInstanceSurfaces& moving_ = g_->surfaces_.of<MovingInstanceSurfaces>();
+  std::vector<Instance> moving_shapes_; ///< parallel to moving_.objects: each alone, in its own space
+  std::vector<InstanceMesh> meshes_;    ///< parallel to instances_
   std::map<std::tuple<std::size_t, bool, float>, std::shared_ptr<const Mesh>> shape_meshes_;
   std::map<const Mesh*, std::size_t> uses_;
   std::map<const Mesh*, std::uint32_t> objects_; ///< their indices
@@ -293,6 +323,7 @@ private:
   std::vector<std::shared_ptr<Geometry::Object>> new_objects_; ///< whose trees are still to be built
   bool world_normals_ = false, world_uvs_ = false;
   const Progress* progress_ = nullptr; ///< of build()
+  Progress* progress_of_build_ = nullptr;
 };
 
 std::shared_ptr<const Geometry> Geometry::build(const std::vector<Instance>& instances, BuildQuality quality,

@@ -67,7 +67,7 @@ struct InstanceSurfaces {
   bool has_smooth() const {
     return std::ranges::any_of(objects, [](const auto& object) { return !object->set.normals.empty(); });
   }
-  std::optional<SmoothTriangle> smooth_triangle(const Hit& hit) const {
+  std::optional<SmoothTriangle> smooth_triangle(const Ray&, const Hit& hit) const {
     const PlacedObject& p = placed[hit.instance];
     const TriangleSet& set = set_of(hit);
     const uvec3 t = set.triangles[hit.primitive];

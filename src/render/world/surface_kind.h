@@ -29,7 +29,8 @@ namespace candela {
 /// - add(instance, index): whether the instance is made of this kind; then it is added.
 /// - input: for the build of the tree.
 ///
-/// Optional, of kinds that may be smooth: smooth_triangle, as Geometry's.
+/// Optional, of kinds that meshes become: smooth_triangle, if they may be smooth, and triangle_of_instance,
+/// as Geometry's.
 template <class K>
 concept SurfaceKind = requires(const K& k, const Ray& ray, const Hit& hit, SurfaceInteraction& s,
                                std::uint64_t number, vec3 point) {
@@ -80,7 +81,9 @@ public:
   /// f(surfaces, number of their first primitive) of the kind that was hit.
   template <class F>
   [[gnu::always_inline]] decltype(auto) visit(const Hit& hit, F&& f) const {
-    return visit_from<0>(hit.instance == kNoInstance ? hit.kind : PrimitiveKind::instance, f);
+    if (hit.instance == kNoInstance) return visit_from<0>(hit.kind, f);
+    return visit_from<0>(
+        (hit.instance & kMovingInstance) == 0 ? PrimitiveKind::instance : PrimitiveKind::moving_instance, f);
   }
   /// The same of the kind that a number belongs to, which is below count().
   template <class F>

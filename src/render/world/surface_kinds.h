@@ -6,12 +6,14 @@
 #include "render/world/curve_surfaces.h"
 #include "render/world/disc_surfaces.h"
 #include "render/world/instance_surfaces.h"
+#include "render/world/moving_instance_surfaces.h"
+#include "render/world/moving_triangle_surfaces.h"
 #include "render/world/sphere_surfaces.h"
 #include "render/world/triangle_surfaces.h"
 
 namespace candela {
 
-using SurfaceKinds =
-    SurfaceKindList<TriangleSurfaces, SphereSurfaces, DiscSurfaces, InstanceSurfaces, CurveSurfaces>;
+using SurfaceKinds = SurfaceKindList<TriangleSurfaces, SphereSurfaces, DiscSurfaces, InstanceSurfaces,
+                                     CurveSurfaces, MovingInstanceSurfaces, MovingTriangleSurfaces>;
 
 } // namespace candela

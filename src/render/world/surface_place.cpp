@@ -24,19 +24,17 @@ SurfacePlace surface_place(const RenderScene& scene, const Ray& ray, const Hit& 
   const Geometry& geometry = scene.geometry();
   const Instance& instance = scene.instances()[geometry.instance_of(hit)];
   const SurfaceInteraction surface = geometry.surface(ray, hit);
-  const mat4 object_from_world = glm::inverse(instance.world_from_object);
+  const mat4 placement = world_from_object(instance, ray.time), object_from_world = glm::inverse(placement);
   SurfacePlace place;
   place.position = transform_point(object_from_world, surface.position);
   // A normal is a gradient: it goes back by the transpose.
-  const vec3 normal = glm::transpose(mat3(instance.world_from_object)) * surface.shading_normal;
+  const vec3 normal = glm::transpose(mat3(placement)) * surface.shading_normal;
   if (length_squared(normal) > 0) place.normal = glm::normalize(normal);
   place.dpdu = transform_vector(object_from_world, tangents.dpdu);
   place.dpdv = transform_vector(object_from_world, tangents.dpdv);
   if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&instance.shape)) {
     const bool placed = hit.instance != kNoInstance;
-    const std::uint32_t triangle =
-        placed ? hit.primitive : geometry.surfaces().of<TriangleSurfaces>().triangle_of_instance(hit);
-    set_colors(place, **mesh, triangle, hit.u, hit.v,
+    set_colors(place, **mesh, geometry.triangle_of_instance(hit), hit.u, hit.v,
                !placed && glm::determinant(mat3(instance.world_from_object)) < 0);
   }
   return place;

@@ -62,7 +62,8 @@ vec3 relief_normal(const SurfaceMaterial& material, const RenderScene& scene, co
                            height_gradient(*bump, at));
   if (lacks_uv(map, tangents)) return normal;
   if (map->use.mapping == TextureMapping::triplanar)
-    return triplanar_normal(*map, at, scene.instances()[geometry.instance_of(hit)].world_from_object,
+    return triplanar_normal(*map, at,
+                            world_from_object(scene.instances()[geometry.instance_of(hit)], ray.time),
                             surface.geometric_normal);
   return mapped_normal(texture_basis(normal, tangents.dpdu, tangents.dpdv), surface.geometric_normal,
                        map->color(at));

@@ -62,7 +62,7 @@ struct TriangleSurfaces {
     s.shading_normal = shading_normal(set.smooth_normal(t, hit.u, hit.v), p.normal);
   }
   bool has_smooth() const { return !set.normals.empty(); }
-  std::optional<SmoothTriangle> smooth_triangle(const Hit& hit) const {
+  std::optional<SmoothTriangle> smooth_triangle(const Ray&, const Hit& hit) const {
     const uvec3 t = set.triangles[hit.primitive];
     const vec3 smooth = set.smooth_normal(t, hit.u, hit.v);
     if (is_black(smooth)) return std::nullopt;

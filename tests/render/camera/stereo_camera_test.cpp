@@ -153,11 +153,11 @@ TEST(StereoCamera, FiltersDoNotMixTheEyes) {
   for (const float u : {0.001f, 0.2f, 0.8f, 0.999f})
     for (const unsigned x : {18u, 19u, 20u, 21u}) {
       Ray ray;
-      ASSERT_TRUE(rays.at({x, 10}, {u, 0.5f}, vec2(0), ray));
+      ASSERT_TRUE(rays.at({x, 10}, {u, 0.5f}, vec2(0), 0, ray));
       const float side = glm::dot(ray.origin - view.position(), view.right());
       EXPECT_NEAR(side, x < 20 ? -0.1f : 0.1f, 1e-6f);
       Ray middle;
-      ASSERT_TRUE(rays.at({x < 20 ? 19u : 20u, 10}, {0.5f, 0.5f}, vec2(0), middle));
+      ASSERT_TRUE(rays.at({x < 20 ? 19u : 20u, 10}, {0.5f, 0.5f}, vec2(0), 0, middle));
       const float beyond = glm::dot(ray.direction - middle.direction, view.right());
       reached_over |= x < 20 ? beyond > 0.02f : beyond < -0.02f;
     }
@@ -173,6 +173,25 @@ TEST(StereoCamera, IsWhatACameraWithStereoIs) {
       EXPECT_EQ(ray_of(*made, film).origin, ray_of(*expected, film).origin);
       EXPECT_EQ(ray_of(*made, film).direction, ray_of(*expected, film).direction);
     }
+  }
+}
+
+TEST(StereoCamera, BothEyesZoomAboutTheMiddlesOfTheirPictures) {
+  Document moving, end;
+  for (Document* d : {&moving, &end}) {
+    d->scene.camera = pair(Stereo::side_by_side);
+    d->settings.film.width = 40;
+    d->settings.film.height = 20;
+    d->scene.camera.shutter_close = 1;
+  }
+  moving.scene.camera.motion_fov = radians(20.0f);
+  end.scene.camera.vertical_fov += radians(20.0f);
+  const PixelRays a(moving), b(end);
+  for (const unsigned x : {3u, 12u, 22u, 37u}) {
+    Ray ray, expected;
+    ASSERT_TRUE(a.at({x, 4}, vec2(0.5f), vec2(0), 1, ray) && b.at({x, 4}, vec2(0.5f), vec2(0), 1, expected));
+    EXPECT_LT(glm::length(ray.origin - expected.origin), 1e-5f);
+    EXPECT_LT(glm::length(ray.direction - expected.direction), 1e-5f);
   }
 }
 

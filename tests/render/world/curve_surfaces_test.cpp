@@ -242,7 +242,7 @@ TEST(CurveSurfacesStatistical, RaysThatLeaveDoNotMeetWhereTheyBegin) {
           const vec3 w = direction();
           if (form == CurveForm::ribbon && std::abs(glm::dot(w, axis)) > 0.999f) continue;
           ++left;
-          const auto again = g->accel().intersect(spawn_ray(s, w));
+          const auto again = g->accel().intersect(spawn_ray(s, w, 0));
           ASSERT_FALSE(again) << "form " << static_cast<int>(form) << ", width " << width << ", t "
                               << again->t << ", cosine " << glm::dot(w, s.geometric_normal);
         }
