@@ -47,7 +47,7 @@ TEST(SmoothTerminator, PathsLeaveFromTheSphere) {
     if (!hit) continue;
     Vertex v(*scene, ray, *hit);
     const float depth = 1 - glm::length(v.surface.position);
-    smooth_terminator(v, bsdf, scene->geometry(), *hit);
+    smooth_terminator(v, bsdf, scene->geometry(), ray, *hit);
     // Of the sphere's normals, so it leads to the sphere (TheOffsetLeadsToTheSphereOfTheNormals).
     const float left = 1 - glm::length(v.surface.position);
     EXPECT_LE(std::abs(left), 0.15f * depth + 1e-5f) << depth << " below";

@@ -303,14 +303,20 @@ TEST(LightTreeStatistical, MakesLessNoiseOfManyLights) {
   Document d = lamps();
   d.settings.path.component = PathComponent::direct;
   d.settings.stop.spp = 1024;
-  auto noise = [&](LightChoiceBy how) {
+  auto variance = [&](LightChoiceBy how) {
     d.settings.path.light_choice = how;
     d.settings.sampler.seed = sampler_seed(4);
-    double sum = 0;
-    for (double v : estimate(render(d)).variance) sum += v;
-    return sum;
+    return estimate(render(d)).variance;
   };
-  EXPECT_LT(noise(LightChoiceBy::contribution), 0.5 * noise(LightChoiceBy::power)) << seed_note();
+  const auto by_contribution = variance(LightChoiceBy::contribution),
+             by_power = variance(LightChoiceBy::power);
+  // The median, for the sum may be that of one sample where a lamp happens to touch a surface.
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < by_power.size(); ++i)
+    if (by_power[i] > 0) ratios.push_back(by_contribution[i] / by_power[i]);
+  ASSERT_GT(ratios.size(), by_power.size() / 2);
+  std::ranges::nth_element(ratios, ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2));
+  EXPECT_LT(ratios[ratios.size() / 2], 0.5) << seed_note();
 }
 
 } // namespace
