@@ -47,6 +47,7 @@ struct ViewerTextureViewUi : ::testing::Test {
   const TextureViewer& view() const { return hand->viewer.texture_viewer(); }
   const TextureViewState& state() const { return hand->state().texture_view; }
   void wait() {
+    hand->frame(); // what a click changes is made from the next frame on
     hand->wait_until("the texture is there", [&] { return view().complete(); });
     hand->frame(2);
   }

@@ -68,8 +68,8 @@ void expect_same_samples(const Film& a, const Film& b) {
       EXPECT_EQ(a.tried(x, y), b.tried(x, y));
       expect_near(a.mean(x, y), b.mean(x, y), 1e-6f);
       expect_near(a.variance_of_mean(x, y), b.variance_of_mean(x, y), 1e-4f);
-      // Odd samples are kept as floats, and the even ones are what is left of the sum: the error of both is one
-      // of rounding of the larger, also where the other is 0.
+      // Odd samples are kept as floats, and the even ones are what is left of the sum: the error of both is
+      // one of rounding of the larger, also where the other is 0.
       const vec3 larger = glm::max(glm::abs(halves[1][0].at(x, y)), glm::abs(halves[1][1].at(x, y)));
       for (int half : {0, 1})
         for (int c = 0; c < 3; ++c)
