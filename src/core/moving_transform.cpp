@@ -70,7 +70,7 @@ Bounds3 MovingTransform::bounds(const Bounds3& object) const {
     radius = std::max({radius, from_axis(corners[i].begin), from_axis(corners[i].begin + corners[i].change)});
     growth = std::max(growth, from_axis(corners[i].change));
   }
-  // Where nothing but the rotation goes on, all turns are the same.
+  // Where there is nothing but rotation, all turns are the same.
   const bool repeats = translation == glm::dvec3(0) && growth == 0;
   const double turn = repeats ? std::clamp(angle, -kTurn, kTurn) : angle;
   const int steps = std::max(static_cast<int>(std::ceil(std::abs(turn) / kStep)), 1);

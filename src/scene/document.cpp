@@ -224,6 +224,7 @@ std::string document_problem(const Document& document) {
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
     if (auto p = instance_problem(scene, scene.instances[i], i, checked); !p.empty()) return p;
   if (auto p = view_problem(scene.camera); !p.empty()) return "camera." + p;
+  if (auto p = camera_motion_problem(scene.camera); !p.empty()) return "camera." + p;
   if (auto p = bookmarks_problem(scene.bookmarks); !p.empty()) return p;
   return {};
 }

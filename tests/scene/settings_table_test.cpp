@@ -293,4 +293,14 @@ TEST(DocumentProblem, NamesWhatIsWrong) {
                  "instances[0].mesh");
 }
 
+TEST(SettingsTable, CameraMotionThatEndsWithoutAViewIsAProblem) {
+  Document document;
+  EXPECT_EQ(document_problem(document), "");
+  Camera& camera = document.scene.camera;
+  camera.motion_target = camera.position - camera.target; // at time 1 the target is where the camera stands
+  EXPECT_EQ(document_problem(document).rfind("camera.motion_", 0), 0u) << document_problem(document);
+  camera.motion_target = vec3(0);
+  camera.motion_position = {1, 2, 3};
+  EXPECT_EQ(document_problem(document), "");
+}
 } // namespace

@@ -106,7 +106,8 @@ void TextureTiles::draw(ImDrawList& list, const GridRect& rect, vec2 clip_lo, ve
   if (complete_) {
     release(before_);
     before_ = {};
-  } else if (before_.grid) {
+  } else if (before_.grid &&
+             before_.grid->options().copies == grid_->options().copies) { // else it lies elsewhere
     draw_tiles(list, before_, rect, clip_lo, clip_hi, 0);
   }
   draw_tiles(list, now_, rect, clip_lo, clip_hi, reduction);

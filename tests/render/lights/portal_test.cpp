@@ -188,7 +188,7 @@ LightDesc surroundings(std::string_view what) {
 }
 
 /// A room of which the wall at z = -2 is missing but for what leaves two windows open. With a gap in the
-/// ceiling that nobody has told of, if `gap`; the floor goes on outside.
+/// ceiling that nobody has told of, if `gap`; the floor continues outside.
 Document room(std::string_view what, bool gap, const std::vector<PortalLightModel>& portals) {
   SceneMaker s(8, 8, 1);
   const int white = s.diffuse({0.7f, 0.6f, 0.5f}), floor = s.diffuse({0.5f, 0.6f, 0.7f});
