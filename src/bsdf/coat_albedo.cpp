@@ -1,5 +1,6 @@
 #include "bsdf/coat_albedo.h"
 
+#include "bsdf/albedo_coordinates.h"
 #include "bsdf/fresnel.h"
 #include "bsdf/visible_normals.h"
 
@@ -11,24 +12,16 @@ constexpr std::size_t kCosines = 56, kAlphas = 28, kEtas = 24;
 
 /// Where the reflectance bends: masking does below cosines of about alpha, the Fresnel equations' everywhere
 /// and most at grazing angles.
-float cosine_coordinate(float cosine, float alpha) {
+float coat_cosine_coordinate(float cosine, float alpha) {
   return cosine * (0.3f * (1 + alpha) / (cosine + alpha) + 0.7f * 1.5f / (cosine + 0.5f));
 }
-float cosine_at(float coordinate, float alpha) {
+float coat_cosine_at(float coordinate, float alpha) {
   float low = 0, high = 1;
   for (int i = 0; i < 30; ++i) {
     const float middle = 0.5f * (low + high);
-    (cosine_coordinate(middle, alpha) < coordinate ? low : high) = middle;
+    (coat_cosine_coordinate(middle, alpha) < coordinate ? low : high) = middle;
   }
   return high;
-}
-
-/// The root of the amplitude of reflection at normal incidence: little indices reflect at grazing angles
-/// alone.
-float eta_coordinate(float eta) { return std::sqrt(2 * std::max(eta - 1, 0.0f) / (eta + 1)); }
-float eta_at(float coordinate) {
-  const float amplitude = 0.5f * sqr(coordinate);
-  return (1 + amplitude) / (1 - amplitude);
 }
 
 float grid_point(std::size_t i, std::size_t count) {
@@ -37,10 +30,6 @@ float grid_point(std::size_t i, std::size_t count) {
 std::size_t grid_index(float point, std::size_t count) {
   return static_cast<std::size_t>(std::lround(point * static_cast<float>(count - 1)));
 }
-
-constexpr float kMinRoot = 0.0316227766f; // of Microfacets::kMinAlpha
-float alpha_coordinate(float alpha) { return (std::sqrt(alpha) - kMinRoot) / (1 - kMinRoot); }
-float alpha_at(float coordinate) { return sqr(kMinRoot + coordinate * (1 - kMinRoot)); }
 
 /// For each eta.
 std::array<float, kEtas> reflected_shares(const Microfacets& facets, float cosine) {
@@ -67,7 +56,7 @@ GridTable<3> reflectance_table(MicrofacetDistribution distribution) {
   const GridTable<2> each({kCosines, kAlphas}, [&](GridTable<2>::Point at) {
     const float alpha = alpha_at(at[1]);
     shares[grid_index(at[0], kCosines) + kCosines * grid_index(at[1], kAlphas)] =
-        reflected_shares({distribution, alpha, alpha}, cosine_at(at[0], alpha));
+        reflected_shares({distribution, alpha, alpha}, coat_cosine_at(at[0], alpha));
     return 0.0f;
   });
   return {{kCosines, kAlphas, kEtas}, [&](GridTable<3>::Point at) {
@@ -112,7 +101,7 @@ const CoatAlbedo& CoatAlbedo::of(MicrofacetDistribution distribution) {
 }
 
 float CoatAlbedo::operator()(float alpha, float cosine, float eta) const {
-  return table_({cosine_coordinate(cosine, alpha), alpha_coordinate(alpha), eta_coordinate(eta)});
+  return table_({coat_cosine_coordinate(cosine, alpha), alpha_coordinate(alpha), eta_coordinate(eta)});
 }
 
 float CoatAlbedo::mean(float alpha, float eta) const {

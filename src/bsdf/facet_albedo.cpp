@@ -8,10 +8,10 @@ namespace candela {
 namespace {
 
 /// Where albedo bends: cosines are told apart by their ratio to alpha.
-float cosine_coordinate(float cosine, float alpha) { return cosine * (1 + alpha) / (cosine + alpha); }
-float cosine_at(float coordinate, float alpha) { return coordinate * alpha / (1 + alpha - coordinate); }
+float facet_cosine_coordinate(float cosine, float alpha) { return cosine * (1 + alpha) / (cosine + alpha); }
+float facet_cosine_at(float coordinate, float alpha) { return coordinate * alpha / (1 + alpha - coordinate); }
 
-vec3 direction(float cosine, float azimuth) {
+vec3 direction_at(float cosine, float azimuth) {
   const float mu = std::clamp(cosine, 1e-4f, 1.0f), sine = safe_sqrt(1 - sqr(mu));
   return {sine * std::cos(azimuth), sine * std::sin(azimuth), mu};
 }
@@ -53,11 +53,11 @@ float alpha_along(const Microfacets& facets, float cosine, float sine) {
 
 /// Amplitude of reflection at normal incidence, from eta = 1/3 to 3, wider about 1: there total reflection
 /// begins at grazing angles, where little changes much.
-float eta_coordinate(float eta) {
+float signed_eta_coordinate(float eta) {
   const float amplitude = (eta - 1) / (eta + 1);
   return 0.5f + std::copysign(std::sqrt(0.5f * std::abs(amplitude)), amplitude);
 }
-float eta_at(float coordinate) {
+float signed_eta_at(float coordinate) {
   const float root = coordinate - 0.5f, amplitude = std::copysign(2 * sqr(root), root);
   return (1 + amplitude) / (1 - amplitude);
 }
@@ -66,11 +66,11 @@ float eta_at(float coordinate) {
 /// alpha_x and the azimuth in quarter turns besides.
 GridTable<4> facet_table(MicrofacetDistribution distribution, bool anisotropic) {
   if (!anisotropic)
-    return {
-        {40, 32, 2, 2}, [=](GridTable<4>::Point at) {
-          const float alpha = std::max(sqr(at[1]), Microfacets::kMinAlpha);
-          return reflected_share({distribution, alpha, alpha}, direction(cosine_at(at[0], alpha), 0), 512);
-        }};
+    return {{40, 32, 2, 2}, [=](GridTable<4>::Point at) {
+              const float alpha = std::max(sqr(at[1]), Microfacets::kMinAlpha);
+              return reflected_share({distribution, alpha, alpha},
+                                     direction_at(facet_cosine_at(at[0], alpha), 0), 512);
+            }};
   // Visible normals of Beckmann's are slow.
   const int points = distribution == MicrofacetDistribution::ggx ? 256 : 64;
   return {{24, 16, 10, 12}, [=](GridTable<4>::Point at) {
@@ -78,7 +78,7 @@ GridTable<4> facet_table(MicrofacetDistribution distribution, bool anisotropic) 
             const Microfacets facets{distribution, alpha / aspect, alpha * aspect};
             const float azimuth = at[3] * 0.5f * kPi;
             const float along = alpha_along(facets, std::cos(azimuth), std::sin(azimuth));
-            return reflected_share(facets, direction(cosine_at(at[0], along), azimuth), points);
+            return reflected_share(facets, direction_at(facet_cosine_at(at[0], along), azimuth), points);
           }};
 }
 
@@ -107,19 +107,19 @@ const FacetAlbedo& FacetAlbedo::of(MicrofacetDistribution distribution, bool ani
 float FacetAlbedo::operator()(const Microfacets& facets, vec3 w) const {
   const float alpha = std::sqrt(facets.alpha_x * facets.alpha_y), r = std::sqrt(alpha),
               cosine = std::abs(w.z);
-  if (!anisotropic_) return table_({cosine_coordinate(cosine, alpha), r, 0, 0});
+  if (!anisotropic_) return table_({facet_cosine_coordinate(cosine, alpha), r, 0, 0});
   float x = std::abs(w.x), y = std::abs(w.y), aspect = std::sqrt(facets.alpha_y / facets.alpha_x);
   const float sine = std::sqrt(sqr(x) + sqr(y));
   const float along = sine > 0 ? alpha_along(facets, x / sine, y / sine) : facets.alpha_x;
   if (aspect > 1) std::swap(x, y), aspect = 1 / aspect;
-  return table_({cosine_coordinate(cosine, along), r, aspect, std::atan2(y, x) * (2 * kInvPi)});
+  return table_({facet_cosine_coordinate(cosine, along), r, aspect, std::atan2(y, x) * (2 * kInvPi)});
 }
 
 InterfaceAlbedo::InterfaceAlbedo(MicrofacetDistribution distribution)
     : table_({32, 20, 31}, [=](GridTable<3>::Point at) {
         const float alpha = std::max(sqr(at[1]), Microfacets::kMinAlpha);
-        return scattered_share({distribution, alpha, alpha}, direction(cosine_at(at[0], alpha), 0),
-                               eta_at(at[2]), 384);
+        return scattered_share({distribution, alpha, alpha}, direction_at(facet_cosine_at(at[0], alpha), 0),
+                               signed_eta_at(at[2]), 384);
       }) {}
 
 const InterfaceAlbedo& InterfaceAlbedo::of(MicrofacetDistribution distribution) {
@@ -133,7 +133,8 @@ const InterfaceAlbedo& InterfaceAlbedo::of(MicrofacetDistribution distribution) 
 
 float InterfaceAlbedo::operator()(const Microfacets& facets, vec3 w, float eta) const {
   const float alpha = std::sqrt(facets.alpha_x * facets.alpha_y);
-  return table_({cosine_coordinate(std::abs(w.z), alpha), std::sqrt(alpha), eta_coordinate(eta)});
+  return table_(
+      {facet_cosine_coordinate(std::abs(w.z), alpha), std::sqrt(alpha), signed_eta_coordinate(eta)});
 }
 
 } // namespace candela

@@ -1,5 +1,6 @@
 #include "bsdf/layer_albedo.h"
 
+#include "bsdf/albedo_coordinates.h"
 #include "bsdf/facet_albedo.h"
 #include "bsdf/fresnel.h"
 #include "bsdf/visible_normals.h"
@@ -9,18 +10,13 @@ namespace candela {
 namespace {
 
 // Cosines by their roots, for most happens in grazing directions.
-vec3 direction(float root, float azimuth = 0) {
+vec3 direction_of_root(float root, float azimuth = 0) {
   const float cosine = std::max(sqr(root), 1e-4f), sine = safe_sqrt(1 - sqr(cosine));
   return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
 }
-/// Alpha by its root, from the least one on.
 Microfacets facets_of(float coordinate) {
-  const float least = std::sqrt(Microfacets::kMinAlpha), alpha = sqr(least + (1 - least) * coordinate);
+  const float alpha = alpha_at(coordinate);
   return {MicrofacetDistribution::ggx, alpha, alpha};
-}
-float alpha_coordinate(float alpha) {
-  const float least = std::sqrt(Microfacets::kMinAlpha);
-  return (std::sqrt(alpha) - least) / (1 - least);
 }
 
 /// The mean of value(cosine) over visible normals, each weighted by the share of its light that leaves the
@@ -39,21 +35,13 @@ float mean_over_reflected(const Microfacets& facets, vec3 w, int count, Value va
   return weights > 0 ? static_cast<float>(sum / weights) : 0;
 }
 
-/// By the root of the amplitude of reflection at normal incidence, for as the index comes to 1 all happens in
-/// grazing directions.
-float eta_at(float coordinate) {
-  const float amplitude = 0.5f * sqr(coordinate);
-  return (1 + amplitude) / (1 - amplitude);
-}
-float eta_coordinate(float eta) { return std::sqrt(2 * (eta - 1) / (eta + 1)); }
-
 /// The mean over what is reflected of a function of the cosine and of another coordinate in [0, 1], in
 /// `others` points. By the root of the cosine and alpha; for other than round facets by the root of alpha_y /
 /// alpha_x, alpha_x being the greater, and by the azimuth in quarter turns besides.
 template <class Value>
 GridTable<3> round_table(std::size_t others, Value value) {
   return {{48, 20, others}, [=](GridTable<3>::Point at) {
-            return mean_over_reflected(facets_of(at[1]), direction(at[0]), 512,
+            return mean_over_reflected(facets_of(at[1]), direction_of_root(at[0]), 512,
                                        [&](float c) { return value(c, at[2]); });
           }};
 }
@@ -64,7 +52,7 @@ GridTable<5> anisotropic_table(std::size_t others, Value value) {
             const float aspect = std::max(at[2], 0.1f);
             facets.alpha_x /= aspect;
             facets.alpha_y = std::max(facets.alpha_y * aspect, Microfacets::kMinAlpha);
-            return mean_over_reflected(facets, direction(at[0], at[3] * 0.5f * kPi), 192,
+            return mean_over_reflected(facets, direction_of_root(at[0], at[3] * 0.5f * kPi), 192,
                                        [&](float c) { return value(c, at[4]); });
           }};
 }

@@ -4,10 +4,10 @@ namespace candela {
 
 namespace {
 
-constexpr std::size_t kCosines = 160, kRoughnesses = 40;
+constexpr std::size_t kSheenCosines = 160, kRoughnesses = 40;
 
 /// Most happens at grazing angles, and at a low roughness.
-float cosine_at(float coordinate) { return std::max(sqr(coordinate), 1e-4f); }
+float sheen_cosine_at(float coordinate) { return std::max(sqr(coordinate), 1e-4f); }
 float roughness_at(float coordinate) {
   return SheenAlbedo::kMinRoughness + (1 - SheenAlbedo::kMinRoughness) * sqr(coordinate);
 }
@@ -35,13 +35,14 @@ float lobe_albedo(float cosine, float roughness) {
 } // namespace
 
 SheenAlbedo::SheenAlbedo()
-    : albedo_({kCosines, kRoughnesses},
-              [](GridTable<2>::Point at) { return lobe_albedo(cosine_at(at[0]), roughness_at(at[1])); }),
+    : albedo_(
+          {kSheenCosines, kRoughnesses},
+          [](GridTable<2>::Point at) { return lobe_albedo(sheen_cosine_at(at[0]), roughness_at(at[1])); }),
       greatest_({kRoughnesses}, [this](GridTable<1>::Point at) {
         float greatest = 0;
-        for (std::size_t i = 0; i < kCosines; ++i)
-          greatest =
-              std::max(greatest, albedo_({static_cast<float>(i) / static_cast<float>(kCosines - 1), at[0]}));
+        for (std::size_t i = 0; i < kSheenCosines; ++i)
+          greatest = std::max(
+              greatest, albedo_({static_cast<float>(i) / static_cast<float>(kSheenCosines - 1), at[0]}));
         return greatest;
       }) {}
 

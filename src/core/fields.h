@@ -29,11 +29,13 @@ enum class Invalidates {
   scene,   ///< geometry or lights too: they are rebuilt, then the accumulation restarts
 };
 
+inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
 struct FieldInfo {
   std::string_view key; ///< "path.max_depth"
   FieldType type = FieldType::real;
-  double minimum = -std::numeric_limits<double>::infinity(); ///< in file units (degrees for angles)
-  double maximum = std::numeric_limits<double>::infinity();
+  double minimum = -kUnlimited; ///< in file units (degrees for angles)
+  double maximum = kUnlimited;
   std::string_view unit; ///< "" where it has none
   std::string_view help;
   Invalidates invalidates = Invalidates::image;

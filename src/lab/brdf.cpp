@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::string_view kDirections[] = {"uniform", "cosine", "bsdf"};
 
-const Field<BrdfOptions> kFields[] = {
+const Field<BrdfOptions> kBrdfFields[] = {
     {{"theta", FieldType::angle, 0, 89.9, "degrees", "Angle between the normal and the direction of view wo"},
      [](BrdfOptions& o) -> void* { return &o.theta; }},
     {{"directions", FieldType::choice, 0, 0, "",
@@ -17,7 +17,7 @@ const Field<BrdfOptions> kFields[] = {
 
 } // namespace
 
-std::span<const Field<BrdfOptions>> brdf_fields() { return kFields; }
+std::span<const Field<BrdfOptions>> brdf_fields() { return kBrdfFields; }
 
 vec2 direction_chart(vec3 w) {
   const float turns = std::atan2(w.y, w.x) * (0.5f * kInvPi);

@@ -9,7 +9,7 @@ namespace {
 constexpr std::string_view kWarps[] = {"disc", "sphere",   "hemisphere",          "cosine_hemisphere",
                                        "cone", "triangle", "spherical_rectangle", "gaussian"};
 
-const Field<WarpOptions> kFields[] = {
+const Field<WarpOptions> kWarpFields[] = {
     {{"warp", FieldType::choice, 0, 0, "", "The map of the unit square", Invalidates::image, kWarps},
      [](WarpOptions& o) -> void* { return &o.warp; }},
     {{"cone_angle", FieldType::angle, 0.1, 180, "degrees", "From the cone's axis to its edge"},
@@ -42,7 +42,7 @@ float turns(float x, float y) { // azimuth in [0, 1)
 
 } // namespace
 
-std::span<const Field<WarpOptions>> warp_fields() { return kFields; }
+std::span<const Field<WarpOptions>> warp_fields() { return kWarpFields; }
 
 bool warp_uses(Warp warp, std::string_view key) { return key != "cone_angle" || warp == Warp::cone; }
 

@@ -8,20 +8,21 @@ namespace candela {
 
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr auto kScene = Invalidates::scene;
 
 const std::array<Field<Motion>, 5> kFields{
-    {{{"translate", FieldType::point, -kInf, kInf, "scene units", "Way in the world by time 1", kScene},
+    {{{"translate", FieldType::point, -kUnlimited, kUnlimited, "scene units", "Way in the world by time 1",
+       kScene},
       [](Motion& m) -> void* { return &m.translate; }},
      {{"angle", FieldType::angle, -36000, 36000, "degrees",
        "Rotation by time 1, about the axis through the centre; may be several turns", kScene},
       [](Motion& m) -> void* { return &m.angle; }},
-     {{"axis", FieldType::point, -kInf, kInf, "", "Axis of that rotation, in the object's own space", kScene},
+     {{"axis", FieldType::point, -kUnlimited, kUnlimited, "",
+       "Axis of that rotation, in the object's own space", kScene},
       [](Motion& m) -> void* { return &m.axis; }},
      {{"scale", FieldType::point, 1e-3, 1e3, "", "Factors by time 1 along the object's own axes", kScene},
       [](Motion& m) -> void* { return &m.scale; }},
-     {{"center", FieldType::point, -kInf, kInf, "",
+     {{"center", FieldType::point, -kUnlimited, kUnlimited, "",
        "What rotation and scaling keep in place, in the object's own space", kScene},
       [](Motion& m) -> void* { return &m.center; }}}};
 

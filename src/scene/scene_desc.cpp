@@ -10,8 +10,6 @@ namespace candela {
 
 namespace {
 
-constexpr auto kInf = std::numeric_limits<double>::infinity();
-
 constexpr std::string_view kShapeNames[] = {"mesh", "sphere",   "rectangle", "disc",  "plane",
                                             "cube", "cylinder", "cone",      "torus", "curves"};
 static_assert(std::size(kShapeNames) == std::variant_size_v<Shape>);
@@ -23,7 +21,7 @@ void* shape_member(Shape& shape) {
 }
 template <class S, auto Member>
 constexpr Field<Shape> length_row(std::string_view key, std::string_view help) {
-  return {{key, FieldType::real, 0, kInf, "scene units", help, Invalidates::scene, {}, true, true},
+  return {{key, FieldType::real, 0, kUnlimited, "scene units", help, Invalidates::scene, {}, true, true},
           shape_member<S, Member>};
 }
 template <class S, auto Member>
@@ -52,7 +50,7 @@ const Field<Shape> kCurvesFields[] = {
     {{"thickness",
       FieldType::real,
       0,
-      kInf,
+      kUnlimited,
       "",
       "Multiplies the widths of all strands",
       Invalidates::scene,

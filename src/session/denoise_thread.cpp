@@ -12,7 +12,7 @@ namespace {
 
 /// Lower priority than rendering (10), but not idle priority, which would delay the picture too long: next to
 /// busy render threads it gets about 40 % of a core.
-constexpr int kNiceness = 12;
+constexpr int kDenoiseNiceness = 12;
 
 } // namespace
 
@@ -45,7 +45,7 @@ std::unique_ptr<DenoiseJob> DenoiseThread::cancel() {
 }
 
 void DenoiseThread::run() {
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness); // its OpenMP workers inherit it
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kDenoiseNiceness); // its OpenMP workers inherit it
   FeatureFilm features;
   std::uint64_t features_of = 0;                      // accumulation
   BuildQuality features_quality = BuildQuality::high; // of its geometry, which affects rounding

@@ -10,7 +10,7 @@ namespace candela {
 namespace {
 
 /// Priority of the geometry thread, below the renderer's.
-constexpr int kNiceness = 15;
+constexpr int kGeometryNiceness = 15;
 /// Seconds after the last edit of geometry before better geometry is built: each step of a drag would discard
 /// it.
 constexpr double kRest = 0.3;
@@ -27,7 +27,7 @@ std::set<const Mesh*> meshes_of(const std::vector<Instance>& instances) {
 
 GeometryCache::GeometryCache(SessionMonitor& monitor, WorkerThreads& workers, OnBuild on_build)
     : monitor_(monitor), on_build_(std::move(on_build)),
-      thread_([&workers] { workers.start(kNiceness); },
+      thread_([&workers] { workers.start(kGeometryNiceness); },
               [this](const GeometryJob& job, std::shared_ptr<const Geometry> made) {
                 receive(job, std::move(made));
               }) {}

@@ -20,7 +20,7 @@ double seconds_since(Clock::time_point start) {
 /// Side of the coarsest blocks of a first pass that may run out of time; a power of two.
 constexpr int kCoarsest = 32;
 /// Seconds of one pass: long enough that synchronisation costs little, short enough for progress reports.
-constexpr double kPassSeconds = 0.2;
+constexpr double kOfflinePassSeconds = 0.2;
 
 /// Pixels without samples get the value of the pixel that represents their block, if it has one. Returns
 /// their share.
@@ -74,7 +74,7 @@ OfflineResult render_document(const Document& document, const OfflineOptions& op
                              .coarsest = until.time > 0 ? kCoarsest : 1,
                              .components = options.components,
                              .mix = light_mix(document.scene, result.scene->light_layers())});
-  Accumulation::Limits limits{stop, {.seconds = kPassSeconds}, {}};
+  Accumulation::Limits limits{stop, {.seconds = kOfflinePassSeconds}, {}};
   if (options.progress)
     limits.on_pass = [&](const Accumulation& a) {
       if (a.spp() > 0) options.progress({a.spp(), a.seconds(), a.fraction(until), a.rays()});

@@ -10,12 +10,12 @@ namespace candela {
 namespace {
 
 /// Low priority: rendering must not delay the window.
-constexpr int kNiceness = 10;
+constexpr int kRenderNiceness = 10;
 /// Longest time for which the first picture after an edit is completed although a newer edit waits, so that
 /// pictures appear during drags.
 constexpr std::chrono::milliseconds kFirstPicturePatience{100};
 /// Seconds of a pass: long enough that its synchronisation costs little, short enough to publish often.
-constexpr double kPassSeconds = 0.02;
+constexpr double kInteractivePassSeconds = 0.02;
 /// Side of the coarsest blocks before any sample has been timed.
 constexpr int kUsualLattice = 8;
 
@@ -38,7 +38,7 @@ RenderLoop::RenderLoop(SessionMonitor& monitor, WorkerThreads& workers, Mailbox&
       on_publish_(options.on_publish), turns_{options.turns, options.variant},
       renderer_(make_pass_renderer(options.threads)), urgent_thread_([&workers] { workers.start(0); }),
       thread_([this, &workers] {
-        workers.start(kNiceness);
+        workers.start(kRenderNiceness);
         run();
       }) {}
 
@@ -271,7 +271,7 @@ StopCondition RenderLoop::stop_condition(const Accumulation::Pass& pass, bool ur
 }
 
 void RenderLoop::render_pass(int most_samples, bool urgent) {
-  Portion portion{kPassSeconds, most_samples};
+  Portion portion{kInteractivePassSeconds, most_samples};
   if (accumulation_.spp() > 0) {
     const auto lock = monitor_.lock();
     if (mailbox_.take_step(lock)) {

@@ -12,7 +12,7 @@ namespace {
 using namespace candela;
 using namespace candela::test;
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNotANumber = std::numeric_limits<float>::quiet_NaN();
 
 template <class F>
 class SimdFloat8 : public testing::Test {};
@@ -25,7 +25,8 @@ struct alignas(32) Lanes {
 
 template <class F, class Vector, class Scalar>
 void expect_lanes(Vector vector, Scalar scalar) {
-  const Lanes a{{1, -2, 0, kNaN, 4, kInfinity, -0.0f, 1e-40f}}, b{{2, -2, 3, 1, kNaN, -kInfinity, 0, 3}};
+  const Lanes a{{1, -2, 0, kNotANumber, 4, kInfinity, -0.0f, 1e-40f}},
+      b{{2, -2, 3, 1, kNotANumber, -kInfinity, 0, 3}};
   Lanes result;
   vector(F::load(a.f.data()), F::load(b.f.data())).store(result.f.data());
   for (std::size_t i = 0; i < 8; ++i) {
@@ -60,7 +61,7 @@ TYPED_TEST(SimdFloat8, MinMaxAndSelect) {
 
 TYPED_TEST(SimdFloat8, Comparisons) {
   using F = TypeParam;
-  const Lanes a{{1, 2, 3, kNaN, 5, 6, -0.0f, 8}}, b{{1, 3, 2, 4, kNaN, 6, 0, kInfinity}};
+  const Lanes a{{1, 2, 3, kNotANumber, 5, 6, -0.0f, 8}}, b{{1, 3, 2, 4, kNotANumber, 6, 0, kInfinity}};
   F x = F::load(a.f.data()), y = F::load(b.f.data());
   EXPECT_EQ(less(x, y), 0b10000010u);
   EXPECT_EQ(less_equal(x, y), 0b11100011u);

@@ -12,7 +12,7 @@ TEST(BsdfFlags, AreWhatTheModelDoes) {
   models.push_back({"mirror", Mirror{vec3(0.9f), vec3(0)}, 2});
   models.push_back({"glass", Dielectric{1.5f, vec3(0.9f)}, 2});
   models.push_back({"opaque glass", Dielectric{1.5f, vec3(0)}, 2});
-  Random random(7);
+  RandomNumbers random(7);
   for (const NamedBsdf& m : models) {
     SCOPED_TRACE(m.name);
     const BsdfFlags flags = bsdf_flags(m.bsdf);

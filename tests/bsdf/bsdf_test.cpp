@@ -10,7 +10,7 @@ namespace candela::test {
 namespace {
 
 TEST(Bsdf, SampleAgreesWithEvalAndPdf) {
-  Random random(1);
+  RandomNumbers random(1);
   SCOPED_TRACE(seed_note());
   for (const NamedBsdf& m : glossy_models()) {
     for (vec3 wo : outgoing_directions()) {
@@ -33,7 +33,7 @@ TEST(Bsdf, SampleAgreesWithEvalAndPdf) {
 }
 
 TEST(Bsdf, EvalPdfIsEvalAndPdf) {
-  Random random(2);
+  RandomNumbers random(2);
   SCOPED_TRACE(seed_note());
   for (const NamedBsdf& m : glossy_models()) {
     for (int i = 0; i < 500; ++i) {
@@ -48,7 +48,7 @@ TEST(Bsdf, EvalPdfIsEvalAndPdf) {
 }
 
 TEST(Bsdf, NothingPassesThroughWhatReflects) {
-  Random random(3);
+  RandomNumbers random(3);
   for (const NamedBsdf& m : glossy_models()) {
     for (int i = 0; i < 200; ++i) {
       vec3 wo = random.direction(), wi = random.direction();
@@ -59,7 +59,7 @@ TEST(Bsdf, NothingPassesThroughWhatReflects) {
 }
 
 TEST(Bsdf, TheBackIsTheFrontMirrored) {
-  Random random(4);
+  RandomNumbers random(4);
   SCOPED_TRACE(seed_note());
   vec3 flip(1, 1, -1);
   for (const NamedBsdf& m : glossy_models()) {
@@ -73,7 +73,7 @@ TEST(Bsdf, TheBackIsTheFrontMirrored) {
 }
 
 TEST(Bsdf, Reciprocity) {
-  Random random(5);
+  RandomNumbers random(5);
   SCOPED_TRACE(seed_note());
   for (const NamedBsdf& m : glossy_models()) {
     for (int i = 0; i < 1000; ++i) {
@@ -105,7 +105,7 @@ TEST(Bsdf, ReflectsNoMoreThanItGets) {
 }
 
 TEST(Bsdf, BlackSurfacesGiveNoLight) {
-  Random random(6);
+  RandomNumbers random(6);
   for (const Bsdf& bsdf :
        {Bsdf(Diffuse{vec3(0)}), Bsdf(Phong{vec3(0), vec3(0), 10}), Bsdf(Mirror{vec3(0), vec3(0)})}) {
     for (int i = 0; i < 100; ++i) {
@@ -141,7 +141,7 @@ TEST(Bsdf, EdgesOfTheSquareAreHarmless) {
 
 /// Of the lobes without delta: u.z runs over those.
 DirectionTest test_model(const NamedBsdf& m, vec3 wo, std::size_t count, std::uint64_t stream) {
-  Random random(stream);
+  RandomNumbers random(stream);
   float delta = bsdf_delta_probability(m.bsdf, wo);
   auto draw = [&](std::size_t) -> std::optional<vec3> {
     vec3 u = random.three();
@@ -196,7 +196,7 @@ TEST(BsdfStatistical, MeanWeightIsTheAlbedo) {
   for (const NamedBsdf& m : models) {
     for (vec3 wo : outgoing) {
       RunningStatistics weight[3];
-      Random random(stream++);
+      RandomNumbers random(stream++);
       for (int i = 0; i < 20000; ++i) {
         std::optional<BsdfSample> s = bsdf_sample(m.bsdf, wo, random.three());
         for (int c = 0; c < 3; ++c) weight[c].add(s && !s->delta ? double(s->weight[c]) : 0);

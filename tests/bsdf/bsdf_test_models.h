@@ -51,9 +51,9 @@ inline std::vector<vec3> outgoing_directions() {
           direction(radians(95), -2.0f)};
 }
 
-class Random {
+class RandomNumbers {
 public:
-  explicit Random(std::uint64_t stream) : random_(fresh_seed() * 31 + stream) {}
+  explicit RandomNumbers(std::uint64_t stream) : random_(fresh_seed() * 31 + stream) {}
   float one() { return static_cast<float>(random_() >> 40) * 0x1p-24f; }
   vec3 three() {
     float x = one(), y = one();

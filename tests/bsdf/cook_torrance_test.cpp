@@ -34,10 +34,6 @@ std::vector<CookTorrance> models(std::initializer_list<float> alphas) {
   return all;
 }
 
-vec3 polar(double theta, double phi) {
-  return vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
-}
-
 // The textbook, in double and in angles.
 
 double textbook_d(FacetNormals kind, double alpha, double theta) {

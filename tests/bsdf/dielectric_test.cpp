@@ -56,7 +56,7 @@ TEST(Fresnel, TotalReflectionFromTheCriticalAngle) {
 
 TEST(Fresnel, TheSameFromBothSides) {
   SCOPED_TRACE(seed_note());
-  Random random(1);
+  RandomNumbers random(1);
   for (int i = 0; i < 1000; ++i) {
     vec3 wo = random.direction();
     float eta = wo.z > 0 ? 1.5f : 1 / 1.5f;
@@ -75,7 +75,7 @@ TEST(Fresnel, SchlickAtItsEnds) {
 
 TEST(Refraction, SnellsLawInOnePlane) {
   SCOPED_TRACE(seed_note());
-  Random random(2);
+  RandomNumbers random(2);
   for (int i = 0; i < 2000; ++i) {
     vec3 wo = random.direction();
     float eta = wo.z > 0 ? 1.5f : 1 / 1.5f;
@@ -103,7 +103,7 @@ TEST(Dielectric, LosesNoLight) {
   SCOPED_TRACE(seed_note());
   // R + T = 1: with eta^2 taken out of the refracted radiance, what comes from a sky of 1 is 1, for every
   // sample.
-  Random random(3);
+  RandomNumbers random(3);
   Dielectric glass{1.5f, vec3(1)};
   int reflected = 0, refracted = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -140,7 +140,7 @@ TEST(Dielectric, RadianceIsScaledOnTheWayIn) {
 }
 
 TEST(Dielectric, EqualIndicesAreNoSurface) {
-  Random random(4);
+  RandomNumbers random(4);
   for (int i = 0; i < 100; ++i) {
     vec3 wo = random.direction();
     std::optional<BsdfSample> s = Dielectric{1, vec3(1)}.sample(wo, random.three());
@@ -153,7 +153,7 @@ TEST(Dielectric, EqualIndicesAreNoSurface) {
 
 TEST(Dielectric, OfEqualIndicesIsNoInterface) {
   SCOPED_TRACE(seed_note());
-  Random random(12);
+  RandomNumbers random(12);
   const Dielectric none = Dielectric{1.37f, vec3(1)}.with_outside_ior(1.37f);
   for (int i = 0; i < 1000; ++i) {
     vec3 wo = random.direction();
@@ -174,7 +174,7 @@ TEST(Dielectric, CountsItsIndexAgainstTheOutside) {
 
 TEST(DielectricStatistical, ReflectsByTheFresnelShare) {
   SCOPED_TRACE(seed_note());
-  Random random(5);
+  RandomNumbers random(5);
   Dielectric glass{1.5f, vec3(1)};
   const vec3 directions[] = {direction(radians(10), 0), direction(radians(70), 0), direction(radians(85), 0),
                              direction(radians(150), 0)};
@@ -190,7 +190,7 @@ TEST(DielectricStatistical, ReflectsByTheFresnelShare) {
 
 TEST(Mirror, IdealReflection) {
   SCOPED_TRACE(seed_note());
-  Random random(6);
+  RandomNumbers random(6);
   Mirror mirror{vec3(0.9f, 0.8f, 0.7f), vec3(0)};
   for (int i = 0; i < 100; ++i) {
     vec3 wo = random.direction();

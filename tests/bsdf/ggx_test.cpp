@@ -50,7 +50,7 @@ double textbook(double f0, double a, glm::dvec3 wo, glm::dvec3 wi) {
 
 TEST(Ggx, EvalMatchesTheTextbook) {
   SCOPED_TRACE(seed_note());
-  Random random(1);
+  RandomNumbers random(1);
   for (float r : kRoughness) {
     Ggx ggx{vec3(0.9f, 0.5f, 0.04f), r};
     for (int i = 0; i < 2000; ++i) {
@@ -77,7 +77,7 @@ TEST(Ggx, SmoothAndLosslessIsAMirror) {
   SCOPED_TRACE(seed_note());
   for (vec3 wo : outgoing_directions()) {
     if (std::abs(wo.z) < 0.1f) continue;
-    Random random(2);
+    RandomNumbers random(2);
     int others = 0;
     for (int i = 0; i < 1000; ++i) {
       const std::optional<BsdfSample> s = Ggx{vec3(1), 0}.sample(wo, random.three());
@@ -93,7 +93,7 @@ TEST(GgxStatistical, AlbedoAlmostInTheSurface) {
   const float cosine = 0.0017f;
   const vec3 wo(std::sqrt(1 - sqr(cosine)), 0, cosine);
   const Ggx ggx{vec3(1), 0.05f};
-  Random random(4);
+  RandomNumbers random(4);
   RunningStatistics albedo;
   for (int i = 0; i < 4000000; ++i) {
     const auto s = ggx.sample(wo, random.three());
@@ -105,7 +105,7 @@ TEST(GgxStatistical, AlbedoAlmostInTheSurface) {
 TEST(Ggx, FewDirectionsAreLostBelowTheSurface) {
   // What the bounded cap is for: at full roughness the whole of the visible normals would lose 1/3 at the
   // normal.
-  Random random(3);
+  RandomNumbers random(3);
   for (vec3 wo : outgoing_directions()) {
     int lost = 0;
     for (int i = 0; i < 10000; ++i) lost += !Ggx{vec3(1), 1}.sample(wo, random.three());

@@ -15,32 +15,33 @@ namespace {
 
 constexpr OpenPbrValues kBlack{.base_color = Spectrum(0), .specular_weight = 0};
 
-vec3 polar(float degrees, float phi) {
+vec3 at_degrees(float degrees, float phi) {
   const float theta = radians(degrees);
   return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
-const vec3 kAbove[] = {polar(10, 0.2f), polar(35, 3.0f), polar(60, 1.0f), polar(75, 2.5f), polar(85, -2)};
+const vec3 kAbove[] = {at_degrees(10, 0.2f), at_degrees(35, 3.0f), at_degrees(60, 1.0f), at_degrees(75, 2.5f),
+                       at_degrees(85, -2)};
 
 template <class F>
 void for_pairs(F f) {
   for (const vec3 wo : kAbove)
     for (const vec3 wi : kAbove) f(wo, wi);
 }
-void expect_near(vec3 value, vec3 expected, float relative) {
+void expect_relative(vec3 value, vec3 expected, float relative) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(value[c], expected[c], relative * expected[c] + 1e-7f);
 }
 vec3 albedo(const OpenPbrValues& v, vec3 wo, double width) {
   return albedo_by_quadrature(tested("open_pbr", OpenPbr{v}, width, open_pbr::eta(v)), wo);
 }
 
-std::vector<TestedBsdf> models() {
-  std::vector<TestedBsdf> models;
+std::vector<TestedBsdf> open_pbr_models() {
+  std::vector<TestedBsdf> open_pbr_models;
   const auto add = [&](const OpenPbrValues& v) {
     double rough = double(open_pbr::base_roughness(v));
     if (v.coat_weight > 0) rough = std::min(rough, double(v.coat_roughness));
     const double alpha = std::max(rough * rough, 1e-3);
-    models.push_back(tested(fmt::format("open_pbr {}", models.size()), OpenPbr{v}, std::min(2.0, 2 * alpha),
-                            std::max(open_pbr::eta(v), 1.02f)));
+    open_pbr_models.push_back(tested(fmt::format("open_pbr {}", open_pbr_models.size()), OpenPbr{v},
+                                     std::min(2.0, 2 * alpha), std::max(open_pbr::eta(v), 1.02f)));
   };
   add({});
   add({.base_metalness = 1, .specular_color = {0.5f, 0.8f, 1}, .specular_roughness_anisotropy = 0.6f});
@@ -89,7 +90,7 @@ std::vector<TestedBsdf> models() {
        .specular_weight = 0,
        .specular_roughness = 0.5f,
        .transmission_weight = 1});
-  return models;
+  return open_pbr_models;
 }
 
 /// Nothing is absorbed.
@@ -125,7 +126,7 @@ TEST(OpenPbr, PureDiffuseIsEon) {
   const OpenPbr model{
       {.base_color = {0.9f, 0.5f, 0.1f}, .base_diffuse_roughness = 0.7f, .specular_weight = 0}};
   const OrenNayar eon{{0.9f, 0.5f, 0.1f}, 0.7f};
-  for_pairs([&](vec3 wo, vec3 wi) { expect_near(model.eval(wo, wi), eon.eval(wo, wi), 1e-5f); });
+  for_pairs([&](vec3 wo, vec3 wi) { expect_relative(model.eval(wo, wi), eon.eval(wo, wi), 1e-5f); });
 }
 
 TEST(OpenPbr, PureMetalIsF82OnFacets) {
@@ -141,7 +142,8 @@ TEST(OpenPbr, PureMetalIsF82OnFacets) {
     const Spectrum once =
         0.8f * metal(glm::dot(wo, h)) * (facets.d(h) * facets.g2_reflection(wo, wi) / (4 * wo.z));
     const float share = FacetAlbedo::of(MicrofacetDistribution::ggx, false)(facets, wo);
-    expect_near(model.eval(wo, wi), once * multiple_scattering_gain(share, 0.8f * model.base_color), 5e-3f);
+    expect_relative(model.eval(wo, wi), once * multiple_scattering_gain(share, 0.8f * model.base_color),
+                    5e-3f);
   });
 }
 
@@ -157,7 +159,7 @@ TEST(OpenPbr, PureGlassIsARoughDielectric) {
     for (const vec3 sides : {vec3(1, 1, 0), vec3(1, -1, 0), vec3(-1, 1, 0), vec3(-1, -1, 0)})
       for_pairs([&](vec3 wo, vec3 wi) {
         wo.z *= sides.x, wi.z *= sides.y;
-        expect_near(model.eval(wo, wi, mode), glass.eval(wo, wi, mode), 7e-3f);
+        expect_relative(model.eval(wo, wi, mode), glass.eval(wo, wi, mode), 7e-3f);
       });
 }
 
@@ -170,7 +172,7 @@ TEST(OpenPbr, PureCoatIsItsFacets) {
     const vec3 h = glm::normalize(wo + wi);
     const float once =
         fresnel_dielectric(glm::dot(wo, h), 1.6f) * facets.d(h) * facets.g2_reflection(wo, wi) / (4 * wo.z);
-    expect_near(model.eval(wo, wi), Spectrum(once), 1e-5f);
+    expect_relative(model.eval(wo, wi), Spectrum(once), 1e-5f);
   });
 }
 
@@ -180,8 +182,8 @@ TEST(OpenPbr, PureFuzzIsItsLobe) {
   for (const vec3 wo : kAbove) {
     const Fuzz fuzz(0.4f, wo);
     for (const vec3 wi : kAbove)
-      expect_near(model.eval(wo, wi), model.fuzz_color * (fuzz.albedo() * fuzz.pdf(wi)), 1e-5f);
-    expect_near(albedo(model, wo, 1), model.fuzz_color * fuzz.albedo(), 1e-3f);
+      expect_relative(model.eval(wo, wi), model.fuzz_color * (fuzz.albedo() * fuzz.pdf(wi)), 1e-5f);
+    expect_relative(albedo(model, wo, 1), model.fuzz_color * fuzz.albedo(), 1e-3f);
   }
 }
 
@@ -194,7 +196,7 @@ TEST(OpenPbr, GlossyDiffuseIsTheSumOfBoth) {
     const Spectrum gloss = model.specular_color * (fresnel_dielectric(glm::dot(wo, h), 1.5f) * facets.d(h) *
                                                    facets.g2_reflection(wo, wi) / (4 * wo.z));
     const float rest = 1 - layer_albedo(facets, wo, 1.5f);
-    expect_near(model.eval(wo, wi), gloss + model.base_color * (rest * wi.z * kInvPi), 1e-5f);
+    expect_relative(model.eval(wo, wi), gloss + model.base_color * (rest * wi.z * kInvPi), 1e-5f);
   });
 }
 
@@ -208,10 +210,10 @@ TEST(OpenPbr, CoatDarkensALambertianBase) {
     const Spectrum once = Spectrum(1 - k) / (Spectrum(1) - v.base_color * k);
     const float passes = 1 - layer_albedo(open_pbr::facets(0, 0), wo, 1.5f);
     EXPECT_NEAR(passes, 0.96f, 2e-3f);
-    expect_near(OpenPbr{v}.eval(wo, polar(40, 1)),
-                passes * v.base_color * open_pbr::lerp(Spectrum(1), once, darkening) *
-                    (std::cos(radians(40)) * kInvPi),
-                1e-3f);
+    expect_relative(OpenPbr{v}.eval(wo, at_degrees(40, 1)),
+                    passes * v.base_color * open_pbr::lerp(Spectrum(1), once, darkening) *
+                        (std::cos(radians(40)) * kInvPi),
+                    1e-3f);
   }
 }
 
@@ -323,7 +325,7 @@ TEST(OpenPbr, NeverGivesMoreThanItGot) {
 TEST(OpenPbr, BothSidesAreAlikeWithoutGlass) {
   const OpenPbr model{{.base_metalness = 0.3f, .coat_weight = 0.5f, .fuzz_weight = 0.5f}};
   for_pairs([&](vec3 wo, vec3 wi) {
-    expect_near(model.eval({wo.x, wo.y, -wo.z}, {wi.x, wi.y, -wi.z}), model.eval(wo, wi), 1e-6f);
+    expect_relative(model.eval({wo.x, wo.y, -wo.z}, {wi.x, wi.y, -wi.z}), model.eval(wo, wi), 1e-6f);
   });
 }
 
@@ -340,27 +342,29 @@ TEST(OpenPbr, RefractionIsReciprocal) {
   const float eta = open_pbr::eta(model);
   for_pairs([&](vec3 wo, vec3 wi) {
     wi = -wi;
-    expect_near(model.eval(wo, wi) / std::abs(wi.z) * sqr(eta), model.eval(wi, wo) / std::abs(wo.z), 1e-4f);
+    expect_relative(model.eval(wo, wi) / std::abs(wi.z) * sqr(eta), model.eval(wi, wo) / std::abs(wo.z),
+                    1e-4f);
   });
 }
 
 TEST(OpenPbr, SamplesAgree) {
-  for (const TestedBsdf& model : models()) expect_samples_agree(model);
+  for (const TestedBsdf& model : open_pbr_models()) expect_samples_agree(model);
 }
 
 TEST(OpenPbrStatistical, DirectionsFollowThePdf) {
-  const vec3 directions[] = {polar(20, 0.3f), polar(75, -1), polar(89.9f, 0.5f), polar(120, 1)};
-  const auto all = models();
+  const vec3 directions[] = {at_degrees(20, 0.3f), at_degrees(75, -1), at_degrees(89.9f, 0.5f),
+                             at_degrees(120, 1)};
+  const auto all = open_pbr_models();
   for (const TestedBsdf& model : all)
     for (const vec3 wo : directions)
       expect_directions_follow_pdf(model, wo, static_cast<int>(all.size() * std::size(directions)), 10000);
 }
 
 TEST(OpenPbrStatistical, SampledAlbedoIsThatOfTheValues) {
-  const auto all = models();
+  const auto all = open_pbr_models();
   const std::size_t tried[] = {0, 2, 4};
   for (const std::size_t i : tried)
-    for (const vec3 wo : {polar(40, 1), polar(110, 2)}) {
+    for (const vec3 wo : {at_degrees(40, 1), at_degrees(110, 2)}) {
       const SampledAlbedo sampled = albedo_by_samples(all[i], wo, 20000);
       const vec3 exact = albedo_by_quadrature(all[i], wo);
       for (int c = 0; c < 3; ++c)

@@ -26,11 +26,6 @@ std::vector<TestedBsdf> models(Spectrum reflectance) {
   return all;
 }
 
-vec3 polar(double theta, double phi) {
-  return {float(std::sin(theta) * std::cos(phi)), float(std::sin(theta) * std::sin(phi)),
-          float(std::cos(theta))};
-}
-
 TEST(OrenNayar, SamplesAgree) {
   for (const TestedBsdf& model : models(kOrange)) expect_samples_agree(model);
 }

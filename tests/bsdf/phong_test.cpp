@@ -41,7 +41,7 @@ TEST(Phong, LobeIsAboutTheMirrorDirection) {
   for (vec3 wo : outgoing_directions()) {
     if (std::abs(wo.z) < 0.2f) continue;
     vec3 mirrored(-wo.x, -wo.y, wo.z);
-    Random random(1);
+    RandomNumbers random(1);
     vec3 mean(0);
     for (int i = 0; i < 1000; ++i)
       if (auto s = phong.sample(wo, random.three())) mean += s->wi;

@@ -10,9 +10,9 @@
 namespace candela::test {
 namespace {
 
-const Spectrum kOrange(0.6f, 0.3f, 0.1f);
-constexpr MicrofacetDistribution kDistributions[] = {MicrofacetDistribution::ggx,
-                                                     MicrofacetDistribution::beckmann};
+const Spectrum kDullOrange(0.6f, 0.3f, 0.1f);
+constexpr MicrofacetDistribution kPlasticDistributions[] = {MicrofacetDistribution::ggx,
+                                                            MicrofacetDistribution::beckmann};
 
 Plastic smooth(Spectrum diffuse, Spectrum specular = Spectrum(1), float ior = 1.5f, bool nonlinear = false) {
   return {diffuse, specular, ior, nonlinear};
@@ -26,40 +26,35 @@ std::vector<TestedBsdf> smooth_models() {
   std::vector<TestedBsdf> models;
   for (const auto& [ior, nonlinear] : {std::pair(1.0f, false), std::pair(1.5f, true), std::pair(3.0f, false)})
     models.push_back(tested(fmt::format("smooth {} {}", ior, nonlinear),
-                            smooth(kOrange, Spectrum(1, 0.8f, 0.9f), ior, nonlinear)));
+                            smooth(kDullOrange, Spectrum(1, 0.8f, 0.9f), ior, nonlinear)));
   models.push_back(tested("smooth without base", smooth(Spectrum(0))));
-  models.push_back(tested("smooth without reflection", smooth(kOrange, Spectrum(0))));
+  models.push_back(tested("smooth without reflection", smooth(kDullOrange, Spectrum(0))));
   return models;
 }
 
-std::vector<TestedBsdf> rough_models() {
+std::vector<TestedBsdf> rough_plastics() {
   std::vector<TestedBsdf> models;
-  for (const auto distribution : kDistributions)
+  for (const auto distribution : kPlasticDistributions)
     for (const float alpha : {0.001f, 0.05f, 0.3f, 1.0f}) {
       if (distribution == MicrofacetDistribution::beckmann && alpha != 0.05f && alpha != 0.3f) continue;
       const std::string name =
           fmt::format("{} {}", distribution == MicrofacetDistribution::ggx ? "ggx" : "beckmann", alpha);
       const double width = std::min(2.0, 2 * double(alpha));
-      models.push_back(tested(name, rough(alpha, distribution, kOrange), width));
+      models.push_back(tested(name, rough(alpha, distribution, kDullOrange), width));
       if (alpha == 0.3f)
         models.push_back(tested(name + " nonlinear",
-                                rough(alpha, distribution, kOrange, Spectrum(0.9f), 1.9f, true), width));
+                                rough(alpha, distribution, kDullOrange, Spectrum(0.9f), 1.9f, true), width));
     }
   models.push_back(tested("without base", rough(0.2f, MicrofacetDistribution::ggx, Spectrum(0)), 0.4));
   models.push_back(
-      tested("without reflection", rough(0.2f, MicrofacetDistribution::ggx, kOrange, Spectrum(0)), 2));
+      tested("without reflection", rough(0.2f, MicrofacetDistribution::ggx, kDullOrange, Spectrum(0)), 2));
   return models;
 }
 
 std::vector<TestedBsdf> all_models() {
   std::vector<TestedBsdf> all = smooth_models();
-  for (auto& model : rough_models()) all.push_back(std::move(model));
+  for (auto& model : rough_plastics()) all.push_back(std::move(model));
   return all;
-}
-
-vec3 polar(double theta, double phi) {
-  return {float(std::sin(theta) * std::cos(phi)), float(std::sin(theta) * std::sin(phi)),
-          float(std::cos(theta))};
 }
 
 TEST(Plastic, SamplesAgree) {
@@ -102,8 +97,8 @@ TEST(Plastic, IsThatOfMitsuba) {
                          Known{{0.2, 0}, {1.4, 2}, 0.0207776f, 0.0130505f, 0.00116905f, 0}}) {
     const vec3 wo = polar(k.o[0], k.o[1]), wi = polar(k.i[0], k.i[1]);
     // It has a fit for the reflectance of diffuse light.
-    EXPECT_NEAR(smooth(kOrange).eval(wo, wi).x / k.linear, 1, 2e-3);
-    EXPECT_NEAR(smooth(kOrange, Spectrum(1), 1.5f, true).eval(wo, wi).x / k.nonlinear, 1, 1e-3);
+    EXPECT_NEAR(smooth(kDullOrange).eval(wo, wi).x / k.linear, 1, 2e-3);
+    EXPECT_NEAR(smooth(kDullOrange, Spectrum(1), 1.5f, true).eval(wo, wi).x / k.nonlinear, 1, 1e-3);
     // Only the coat, of alpha 0.3 and 0.1, for of white light its rough coat loses some 30 % at alpha 0.3.
     // Masking and shadowing do not correlate.
     for (const auto& [coat, known] :
@@ -130,7 +125,7 @@ TEST(Plastic, WhiteFurnaceOfASmoothCoat) {
 }
 
 TEST(Plastic, WhiteFurnaceOfARoughCoat) {
-  for (const auto distribution : kDistributions)
+  for (const auto distribution : kPlasticDistributions)
     for (const float alpha : {0.05f, 0.2f, 0.5f, 1.0f})
       for (const float ior : {1.1f, 1.5f, 2.5f})
         for (const double theta : {0.0, 0.7, 1.3, 1.5}) {
@@ -157,9 +152,9 @@ TEST(Plastic, ColorsOfTheBase) {
 
 TEST(Plastic, RoughCoatBecomesSmooth) {
   const vec3 wo = polar(0.6, 0), wi = polar(1, 2);
-  for (const auto distribution : kDistributions)
-    EXPECT_NEAR(rough(0.001f, distribution, kOrange).eval(wo, wi).x / smooth(kOrange).eval(wo, wi).x, 1,
-                2e-3);
+  for (const auto distribution : kPlasticDistributions)
+    EXPECT_NEAR(rough(0.001f, distribution, kDullOrange).eval(wo, wi).x / smooth(kDullOrange).eval(wo, wi).x,
+                1, 2e-3);
 }
 
 TEST(PlasticStatistical, DirectionsFollowThePdf) {

@@ -27,13 +27,14 @@ void expect_near(vec3 value, vec3 expected, float relative) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(value[c], expected[c], relative * std::max(expected[c], 1e-6f));
 }
 
-std::vector<TestedBsdf> models() {
-  std::vector<TestedBsdf> models;
+std::vector<TestedBsdf> principled_models() {
+  std::vector<TestedBsdf> principled_models;
   const auto add = [&](PrincipledValues v) {
     // Of the narrowest lobe of any weight.
     const double alpha = v.clearcoat > 0 ? 0.1 : std::max(double(sqr(v.roughness)), 1e-3);
-    models.push_back(tested(fmt::format("{} {}", v.thin ? "sheet" : "solid", models.size()), Principled{v},
-                            std::min(2.0, 2 * alpha), v.thin ? 1 : v.eta));
+    principled_models.push_back(
+        tested(fmt::format("{} {}", v.thin ? "sheet" : "solid", principled_models.size()), Principled{v},
+               std::min(2.0, 2 * alpha), v.thin ? 1 : v.eta));
   };
   for (const PrincipledValues& v : reference_solids()) add(v);
   for (const PrincipledValues& v : reference_sheets()) add(v);
@@ -52,7 +53,7 @@ std::vector<TestedBsdf> models() {
        .flatness = 1,
        .clearcoat = 1});
   add({.base_color = Spectrum(1), .roughness = 1, .spec_trans = 1, .eta = 3, .spec_tint = 1, .thin = true});
-  return models;
+  return principled_models;
 }
 
 TEST(Principled, AsMitsuba) {
@@ -124,12 +125,12 @@ TEST(PrincipledMaterial, IndexOfRefraction) {
 }
 
 TEST(Principled, SamplesAgree) {
-  for (const TestedBsdf& model : models()) expect_samples_agree(model);
+  for (const TestedBsdf& model : principled_models()) expect_samples_agree(model);
 }
 
 TEST(Principled, Reciprocity) {
   // The half vector of a refraction is a difference of nearly equal directions: fewer digits.
-  for (const TestedBsdf& model : models())
+  for (const TestedBsdf& model : principled_models())
     expect_reciprocal(model, 10000,
                       !has_any(model.flags, BsdfFlags::transmission) ? 1e-5f
                       : model.ior == 1.02f                           ? 1e-3f
@@ -162,7 +163,7 @@ TEST(Principled, BoundOfAlbedo) {
 }
 
 TEST(PrincipledStatistical, DirectionsFollowThePdf) {
-  const auto all = models();
+  const auto all = principled_models();
   const auto directions = contract_directions();
   for (const TestedBsdf& model : all)
     for (const vec3 wo : directions)
@@ -170,7 +171,7 @@ TEST(PrincipledStatistical, DirectionsFollowThePdf) {
 }
 
 TEST(PrincipledStatistical, SampledAlbedoIsThatOfTheValues) {
-  const auto all = models();
+  const auto all = principled_models();
   const float directions[][2] = {{30, 1}, {80, 2}, {130, 0.5f}};
   for (const TestedBsdf& model : all)
     for (const auto& d : directions) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kRoughnesses[] = {SheenAlbedo::kMinRoughness, 0.15f, 0.4f, 1};
 
-std::vector<TestedBsdf> models() {
+std::vector<TestedBsdf> sheen_models() {
   std::vector<TestedBsdf> all;
   for (const float r : kRoughnesses) {
     all.push_back(tested(fmt::format("lobe {}", r), Sheen{Spectrum(0), Spectrum(0.9f), r}));
@@ -24,17 +24,12 @@ std::vector<TestedBsdf> models() {
   return all;
 }
 
-vec3 polar(double theta, double phi) {
-  return {float(std::sin(theta) * std::cos(phi)), float(std::sin(theta) * std::sin(phi)),
-          float(std::cos(theta))};
-}
-
 TEST(Sheen, SamplesAgree) {
-  for (const TestedBsdf& model : models()) expect_samples_agree(model);
+  for (const TestedBsdf& model : sheen_models()) expect_samples_agree(model);
 }
 
 TEST(Sheen, Reciprocity) {
-  for (const TestedBsdf& model : models()) expect_reciprocal(model);
+  for (const TestedBsdf& model : sheen_models()) expect_reciprocal(model);
 }
 
 TEST(Sheen, IsThatOfThePapersInAngles) {
@@ -111,7 +106,7 @@ TEST(Sheen, WhiteClothKeepsWithinOne) {
 }
 
 TEST(SheenStatistical, DirectionsFollowThePdf) {
-  const auto all = models();
+  const auto all = sheen_models();
   const auto directions = contract_directions();
   for (const TestedBsdf& model : all)
     for (const vec3 wo : directions)
@@ -119,7 +114,7 @@ TEST(SheenStatistical, DirectionsFollowThePdf) {
 }
 
 TEST(SheenStatistical, EnergyIsConserved) {
-  const auto all = models();
+  const auto all = sheen_models();
   for (const TestedBsdf& model : all) expect_conserves_energy(model, static_cast<int>(all.size()));
 }
 

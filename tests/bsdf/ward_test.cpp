@@ -12,7 +12,7 @@
 namespace candela::test {
 namespace {
 
-std::vector<TestedBsdf> models() {
+std::vector<TestedBsdf> ward_models() {
   std::vector<TestedBsdf> all;
   for (const auto& [u, v] : {std::pair(0.001f, 0.001f), std::pair(0.05f, 0.05f), std::pair(1.0f, 1.0f),
                              std::pair(0.4f, 0.1f), std::pair(0.02f, 0.6f)}) {
@@ -24,17 +24,12 @@ std::vector<TestedBsdf> models() {
   return all;
 }
 
-vec3 polar(double theta, double phi) {
-  return {float(std::sin(theta) * std::cos(phi)), float(std::sin(theta) * std::sin(phi)),
-          float(std::cos(theta))};
-}
-
 TEST(Ward, SamplesAgree) {
-  for (const TestedBsdf& model : models()) expect_samples_agree(model);
+  for (const TestedBsdf& model : ward_models()) expect_samples_agree(model);
 }
 
 TEST(Ward, Reciprocity) {
-  for (const TestedBsdf& model : models()) expect_reciprocal(model);
+  for (const TestedBsdf& model : ward_models()) expect_reciprocal(model);
 }
 
 TEST(Ward, IsThatOfThePaperInAngles) {
@@ -85,7 +80,7 @@ TEST(Ward, AlbedoOfALobeIsTheMeanOfItsWeights) {
 }
 
 TEST(WardStatistical, DirectionsFollowThePdf) {
-  const auto all = models();
+  const auto all = ward_models();
   const auto directions = contract_directions();
   for (const TestedBsdf& model : all)
     for (const vec3 wo : directions)
@@ -93,7 +88,7 @@ TEST(WardStatistical, DirectionsFollowThePdf) {
 }
 
 TEST(WardStatistical, EnergyIsConserved) {
-  const auto all = models();
+  const auto all = ward_models();
   for (const TestedBsdf& model : all) expect_conserves_energy(model, static_cast<int>(all.size()));
 }
 

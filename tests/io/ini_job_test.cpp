@@ -108,7 +108,7 @@ TEST_P(IniJobErrors, AreLocated) {
   files.write("j.ini", GetParam().ini);
   EXPECT_TRUE(test::says(files.error("j.ini"), GetParam().start, {GetParam().part}));
 }
-const IniError kErrors[] = {
+const IniError kIniErrors[] = {
     {"Empty", "", "j.ini:1:1: scene: ", "names no scene"},
     {"NoScene", "[IO]\noutput = x.png\n", "j.ini:1:1: scene: ", "names no scene"},
     {"Section", "[IO]\n [Setings]\n", "j.ini:2:2: job: ", "[IO] and [Settings]"},
@@ -130,7 +130,7 @@ const IniError kErrors[] = {
      "j.ini:2:28: numDirectLightingSamples: ", "from 1 to 64"},
     {"Itself", "[IO]\nscene = j.ini\n", "j.ini: scene: ", "'.ini'"},
 };
-INSTANTIATE_TEST_SUITE_P(All, IniJobErrors, ::testing::ValuesIn(kErrors),
+INSTANTIATE_TEST_SUITE_P(All, IniJobErrors, ::testing::ValuesIn(kIniErrors),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(IniJobsOfTheAssignment, AllAreRead) {

@@ -21,10 +21,10 @@ ReadOptions cancelled() {
   return options;
 }
 
-const char* const kObj = "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-const char* const kXml = R"(<scenefile><object type="tree" name="root"><transblock>
+const char* const kSmallObj = "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const char* const kSmallXml = R"(<scenefile><object type="tree" name="root"><transblock>
   <object type="primitive" name="mesh" filename="m.obj"/></transblock></object></scenefile>)";
-const char* const kJson = R"({"candela": 1, "lights": [{"type": "environment", "file": "sky.hdr"}],
+const char* const kSmallJson = R"({"candela": 1, "lights": [{"type": "environment", "file": "sky.hdr"}],
   "materials": [{"name": "m", "diffuse_texture": "t.png"}],
   "meshes": {"m": {"file": "m.obj"}, "k": {"positions": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,2]]}},
   "instances": [{"mesh": "m", "material": "m"}, {"mesh": "k"}]})";
@@ -34,10 +34,10 @@ struct ReadProgressTest : testing::Test {
   SceneFiles files;
 
   ReadProgressTest() {
-    files.write("m.obj", kObj);
+    files.write("m.obj", kSmallObj);
     files.write("m.mtl", "newmtl m\nKd 1 1 1\nmap_Kd t.png\n");
-    files.write("a.xml", kXml);
-    files.write("a.json", kJson);
+    files.write("a.xml", kSmallXml);
+    files.write("a.json", kSmallJson);
     files.write("a.ini",
                 "[IO]\nscene = a.xml\noutput = out.png\n[Settings]\nimageWidth = 4\nimageHeight = 4\n");
     const Image image{16, 300, std::vector<vec3>(16 * 300, vec3(0.5f))};

@@ -13,7 +13,7 @@ namespace {
 
 using test::SceneFiles;
 
-constexpr const char* kJson = R"({"candela": 1, // version
+constexpr const char* kSeedJson = R"({"candela": 1, // version
 "camera": {"position": [0, 1, 4], "vertical_fov": 40},
 "materials": [{"name": "red", "type": "phong", "diffuse": [0.63, 0.065, 0.05], "specular": 0.2}, {"emission": 1}],
 "lights": [{"type": "point", "position": [0, 1, 0]}],
@@ -24,14 +24,15 @@ constexpr const char* kJson = R"({"candela": 1, // version
 "transform": [{"scale": 2}, {"rotate": [0,1,0,45]}, {"look_at": {"origin": [0,0,0], "target": [0,0,1], "up": [0,1,0]}}]}],
 "settings": {"path": {"max_depth": 8, "rr": "fixed"}, "view": "radiance"}}
 )";
-constexpr const char* kObj = "mtllib x.mtl\n# comment\nv 0 0 0\nv 1 0 0\nv 1 1.5e-1 \\\n0\nv -.5 1 0 1\nv "
-                             "0.5 0.5 0\nvt 0 0\nvt 1 0.5\nvn 0 0 1\n"
-                             "g group\nusemtl a\nf 1/1/1 2/2/1 3/1/1 5/2/1 4/1/1\nf -1 -2 -3\nusemtl b c\ns "
-                             "1\nf 1//1 2//-1 3//1\nl 1 2\n";
+constexpr const char* kSeedObj =
+    "mtllib x.mtl\n# comment\nv 0 0 0\nv 1 0 0\nv 1 1.5e-1 \\\n0\nv -.5 1 0 1\nv "
+    "0.5 0.5 0\nvt 0 0\nvt 1 0.5\nvn 0 0 1\n"
+    "g group\nusemtl a\nf 1/1/1 2/2/1 3/1/1 5/2/1 4/1/1\nf -1 -2 -3\nusemtl b c\ns "
+    "1\nf 1//1 2//-1 3//1\nl 1 2\n";
 constexpr const char* kMtl =
     "newmtl a\nKd 0.5 0.5 0.5\nKs 0.6\nNs 10\nd -halo 0.5\nmap_Kd -s 1 1 1 t.png\nillum 2\n"
     "newmtl b c\nKe 1 2 3\nTf 0.5 0.5 0.5\nNi 1.5\nillum 7\nTr 0.1\n";
-constexpr const char* kXml = R"(<?xml version="1.0"?>
+constexpr const char* kSeedXml = R"(<?xml version="1.0"?>
 <scenefile><!-- comment --><globaldata><diffusecoeff v="0.5"/></globaldata>
 <cameradata><pos x="0" y="1" z="3.6"/><focus x="0" y="1" z="0"/><up x="0" y="1" z="0"/><heightangle v="45"/></cameradata>
 <lightdata><id v="0"/><type v="point"/><color r="1" g="1" b="1"/><function a="0" b="0" c="1"/></lightdata>
@@ -58,10 +59,10 @@ class HostileScenes : public ::testing::TestWithParam<Format> {
 protected:
   HostileScenes() {
     files.write("t.png", test::tiny_png());
-    files.write("s.json", kJson);
-    files.write("x.obj", kObj);
+    files.write("s.json", kSeedJson);
+    files.write("x.obj", kSeedObj);
     files.write("x.mtl", kMtl);
-    files.write("s.xml", kXml);
+    files.write("s.xml", kSeedXml);
     files.write("j.ini", kIni);
   }
 
@@ -127,10 +128,11 @@ TEST_P(HostileScenes, RandomBytes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HostileScenes,
-                         ::testing::Values(Format{"s.json", "s.json", kJson},
-                                           Format{"x.obj", "x.obj", kObj, true},
+                         ::testing::Values(Format{"s.json", "s.json", kSeedJson},
+                                           Format{"x.obj", "x.obj", kSeedObj, true},
                                            Format{"x.mtl", "x.obj", kMtl, true},
-                                           Format{"s.xml", "s.xml", kXml}, Format{"j.ini", "j.ini", kIni}),
+                                           Format{"s.xml", "s.xml", kSeedXml},
+                                           Format{"j.ini", "j.ini", kIni}),
                          [](const auto& test) {
                            std::string name = test.param.file;
                            return name.substr(name.find('.') + 1);

@@ -12,13 +12,13 @@ namespace {
 
 using namespace test;
 
-struct Made {
+struct MadeSky {
   LightDesc desc;
   std::shared_ptr<KeptResources> kept = std::make_shared<KeptResources>();
   std::vector<Light> lights;
 };
-Made made(const SkyLightModel& model, vec3 color = vec3(1)) {
-  Made m;
+MadeSky made_sky(const SkyLightModel& model, vec3 color = vec3(1)) {
+  MadeSky m;
   m.desc.model = model;
   m.desc.color = color;
   m.lights = make_lights(m.desc, m.kept->resources());
@@ -33,7 +33,7 @@ TEST(SkyLight, IsAPanoramaAndTheSunThatTurnTogether) {
       SkyLightModel model = small_sky();
       model.sun_elevation = radians(35.0f), model.sun_azimuth = radians(100.0f);
       model.rotation = radians(rotation), model.up = up;
-      const Made m = made(model, color);
+      const MadeSky m = made_sky(model, color);
       ASSERT_EQ(m.lights.size(), 2u);
       const auto& sky = std::get<EnvironmentLight>(m.lights[0]);
       const auto& sun = std::get<SunLight>(m.lights[1]);
@@ -75,24 +75,24 @@ TEST(SkyLight, KnowsWhereTheSunStandsByPlaceAndTime) {
               radians(0.12));
   // At midnight it is dark: no sun, and hardly a sky.
   model.hour = 23;
-  const Made night = made(model);
+  const MadeSky night = made_sky(model);
   ASSERT_EQ(night.lights.size(), 1u);
   EXPECT_LT(light_power(night.lights[0], 1), 1e-3f);
 }
 
 TEST(SkyLight, SunScaleIsOfTheSunAlone) {
   SkyLightModel model = small_sky();
-  const Made whole = made(model);
+  const MadeSky whole = made_sky(model);
   model.sun_scale = 0.25f;
-  const Made faint = made(model);
+  const MadeSky faint = made_sky(model);
   model.sun_scale = 0;
-  EXPECT_EQ(made(model).lights.size(), 1u);
+  EXPECT_EQ(made_sky(model).lights.size(), 1u);
   EXPECT_NEAR(light_power(faint.lights[1], 1) / light_power(whole.lights[1], 1), 0.25, 1e-5);
   EXPECT_EQ(light_power(faint.lights[0], 1), light_power(whole.lights[0], 1));
 }
 
 TEST(SunLight, SamplesItsDiscWithItsDensity) {
-  const Made m = made(small_sky());
+  const MadeSky m = made_sky(small_sky());
   const auto& sun = std::get<SunLight>(m.lights[1]);
   auto random = fresh_random(7);
   SCOPED_TRACE(seed_note());

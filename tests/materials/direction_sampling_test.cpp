@@ -17,7 +17,7 @@ double incident(vec3 wi) {
 
 TEST(DirectionSampling, SampleAgreesWithEvalAndPdf) {
   SCOPED_TRACE(seed_note());
-  Random random(1);
+  RandomNumbers random(1);
   for (const NamedBsdf& m : glossy_models()) {
     for (vec3 wo : outgoing_directions()) {
       for (DirectionSampling how : kStrategies) {
@@ -50,7 +50,7 @@ TEST(DirectionSampling, PdfIntegratesToTheChanceOfNoDeltaLobe) {
 }
 
 TEST(DirectionSampling, StrategiesCoverBothSidesOfWhatTransmitsWithADensity) {
-  Random random(5);
+  RandomNumbers random(5);
   for (DirectionSampling how : {DirectionSampling::uniform, DirectionSampling::cosine})
     for (bool both_sides : {false, true})
       for (vec3 wo : outgoing_directions()) {
@@ -74,7 +74,7 @@ TEST(DirectionSampling, StrategiesCoverBothSidesOfWhatTransmitsWithADensity) {
 }
 
 TEST(DirectionSampling, GlassIsAllDelta) {
-  Random random(2);
+  RandomNumbers random(2);
   Bsdf glass = Dielectric{1.5f, vec3(0.9f)};
   for (DirectionSampling how : kStrategies) {
     for (int i = 0; i < 100; ++i) {
@@ -93,7 +93,7 @@ TEST(DirectionSamplingStatistical, DirectionsFollowThePdf) {
   std::uint64_t stream = 50;
   for (DirectionSampling how : {DirectionSampling::uniform, DirectionSampling::cosine}) {
     for (vec3 wo : {direction(radians(30), 1), direction(radians(130), 1)}) {
-      Random random(stream++);
+      RandomNumbers random(stream++);
       auto draw = [&](std::size_t) -> std::optional<vec3> {
         std::optional<BsdfSample> s = sample_direction(bsdf, wo, random.three(), how);
         if (!s) return std::nullopt;
@@ -129,7 +129,7 @@ TEST(DirectionSamplingStatistical, AllStrategiesHaveTheSameExpectation) {
         // Grazing lobes of some models are a rare event for the hemisphere: too skewed for a z-test.
         if (how != DirectionSampling::bsdf && m.width < 0.5 && std::abs(wo.z) < 0.1f) continue;
         RunningStatistics estimate[3];
-        Random random(stream++);
+        RandomNumbers random(stream++);
         for (int i = 0; i < 40000; ++i) {
           std::optional<BsdfSample> s = sample_direction(m.bsdf, wo, random.three(), how);
           for (int c = 0; c < 3; ++c) estimate[c].add(s ? double(s->weight[c]) * incident(s->wi) : 0);

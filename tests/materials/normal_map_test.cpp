@@ -1,3 +1,4 @@
+#include "bsdf/bsdf_test_models.h"
 #include "materials/normal_map.h"
 #include "sampling/warp.h"
 #include "support/seed.h"
@@ -9,20 +10,7 @@
 namespace candela::test {
 namespace {
 
-class Random {
-public:
-  explicit Random(std::uint64_t stream) : random_(fresh_seed() * 31 + stream) {}
-  float one() { return static_cast<float>(random_() >> 40) * 0x1p-24f; }
-  vec3 direction() {
-    const float x = one();
-    return sample_uniform_sphere({x, one()});
-  }
-
-private:
-  std::mt19937_64 random_;
-};
-
-void expect_near(vec3 a, vec3 b, float tolerance) {
+void expect_close(vec3 a, vec3 b, float tolerance) {
   EXPECT_LT(glm::length(a - b), tolerance)
       << a.x << ' ' << a.y << ' ' << a.z << ", not " << b.x << ' ' << b.y << ' ' << b.z;
 }
@@ -31,7 +19,7 @@ void expect_near(vec3 a, vec3 b, float tolerance) {
 struct Surface {
   vec3 dpdu, dpdv, geometric, shading;
 
-  explicit Surface(Random& random) {
+  explicit Surface(RandomNumbers& random) {
     dpdu = random.direction() * (0.3f + 2 * random.one());
     do dpdv = random.direction() * (0.3f + 2 * random.one());
     while (std::abs(glm::dot(glm::normalize(dpdu), glm::normalize(dpdv))) > 0.8f);
@@ -42,20 +30,20 @@ struct Surface {
 
 TEST(NormalMap, FlatMapChangesNothing) {
   SCOPED_TRACE(seed_note());
-  Random random(1);
+  RandomNumbers random(1);
   for (int i = 0; i < 1000; ++i) {
     const Surface at(random);
     const Basis basis = texture_basis(at.shading, at.dpdu, at.dpdv);
     for (const float strength : {0.0f, 1.0f, 7.0f})
-      expect_near(mapped_normal(basis, at.geometric, {0.5f, 0.5f, 1}, strength), at.shading, 1e-6f);
-    expect_near(mapped_normal(basis, at.geometric, {0.3f, 0.6f, 0.9f}, 0), at.shading, 1e-6f);
-    expect_near(bumped_normal(at.shading, at.geometric, at.dpdu, at.dpdv, {0, 0}), at.shading, 1e-6f);
+      expect_close(mapped_normal(basis, at.geometric, {0.5f, 0.5f, 1}, strength), at.shading, 1e-6f);
+    expect_close(mapped_normal(basis, at.geometric, {0.3f, 0.6f, 0.9f}, 0), at.shading, 1e-6f);
+    expect_close(bumped_normal(at.shading, at.geometric, at.dpdu, at.dpdv, {0, 0}), at.shading, 1e-6f);
   }
 }
 
 TEST(NormalMap, BasisFollowsTheTexture) {
   SCOPED_TRACE(seed_note());
-  Random random(2);
+  RandomNumbers random(2);
   for (int i = 0; i < 1000; ++i) {
     const Surface at(random);
     const Basis basis = texture_basis(at.shading, at.dpdu, at.dpdv);
@@ -74,27 +62,27 @@ TEST(NormalMap, AMapOfOneNormalIsATiltedPlane) {
   for (const float mirror : {1.0f, -1.0f}) {
     const Basis basis = texture_basis({0, 0, 1}, {2, 0, 0}, {0, 3 * mirror, 0});
     const vec3 rgb = 0.5f * vec3(tilted.x, mirror * tilted.y, tilted.z) + 0.5f;
-    expect_near(mapped_normal(basis, {0, 0, 1}, rgb), tilted, 1e-6f);
-    expect_near(
+    expect_close(mapped_normal(basis, {0, 0, 1}, rgb), tilted, 1e-6f);
+    expect_close(
         bumped_normal({0, 0, 1}, {0, 0, 1}, {2, 0, 0}, {0, 3 * mirror, 0}, {0.4f * 2, -0.7f * 3 * mirror}),
         tilted, 1e-6f);
     // Twice the slopes.
-    expect_near(mapped_normal(basis, {0, 0, 1}, rgb, 2), glm::normalize(vec3(-0.8f, 1.4f, 1)), 1e-6f);
+    expect_close(mapped_normal(basis, {0, 0, 1}, rgb, 2), glm::normalize(vec3(-0.8f, 1.4f, 1)), 1e-6f);
   }
 }
 
 TEST(NormalMap, BumpOfALinearRamp) {
   SCOPED_TRACE(seed_note());
   // The tangents of p(u, v) + h(u, v) n on a plane, and their cross product.
-  Random random(3);
+  RandomNumbers random(3);
   for (int i = 0; i < 1000; ++i) {
     const Surface at(random);
     const vec2 gradient(2 * random.one() - 1, 2 * random.one() - 1);
     vec3 exact =
         glm::normalize(glm::cross(at.dpdu + gradient.x * at.geometric, at.dpdv + gradient.y * at.geometric));
     exact = glm::dot(exact, at.geometric) < 0 ? -exact : exact;
-    expect_near(bumped_normal(at.geometric, at.geometric, at.dpdu, at.dpdv, gradient),
-                kept_above(exact, at.geometric), 2e-5f);
+    expect_close(bumped_normal(at.geometric, at.geometric, at.dpdu, at.dpdv, gradient),
+                 kept_above(exact, at.geometric), 2e-5f);
   }
 }
 
@@ -117,7 +105,7 @@ TEST(NormalMap, BumpOfASphere) {
                           -0.04 * std::sin(3 * u) * std::sin(2 * v));
       // Blinn leaves out h dn/du: of the slope, the share 0.02 / 2.
       const float slope = glm::length(glm::cross(n, vec3(exact)));
-      expect_near(bumped_normal(n, n, dpdu, dpdv, gradient), exact, 0.011f * slope + 1e-5f);
+      expect_close(bumped_normal(n, n, dpdu, dpdv, gradient), exact, 0.011f * slope + 1e-5f);
     }
 }
 
@@ -127,16 +115,16 @@ TEST(NormalMap, AgainstMitsuba) {
   const vec3 normal = glm::normalize(vec3(0.2f, -0.1f, 1)), geometric = glm::normalize(vec3(0.1f, 0.05f, 1));
   const vec3 dpdu(2, 0.3f, -0.215f), dpdv(0.4f, 1.5f, -0.115f);
   // normalmap of a constant (.62, .41, .9)
-  expect_near(mapped_normal(texture_basis(normal, dpdu, dpdv), geometric, {0.62f, 0.41f, 0.9f}),
-              {0.48389747f, -0.25488506f, 0.83718375f}, 2e-6f);
+  expect_close(mapped_normal(texture_basis(normal, dpdu, dpdv), geometric, {0.62f, 0.41f, 0.9f}),
+               {0.48389747f, -0.25488506f, 0.83718375f}, 2e-6f);
   // bumpmap of a 16 x 16 texture .6 u - .9 v; texels of half precision
-  expect_near(bumped_normal(normal, geometric, dpdu, dpdv, {0.6f, -0.9f}),
-              {-0.15092753f, 0.47585447f, 0.86647738f}, 2e-3f);
+  expect_close(bumped_normal(normal, geometric, dpdu, dpdv, {0.6f, -0.9f}),
+               {-0.15092753f, 0.47585447f, 0.86647738f}, 2e-3f);
 }
 
 TEST(NormalMap, BumpAndNormalMapAgree) {
   SCOPED_TRACE(seed_note());
-  Random random(4);
+  RandomNumbers random(4);
   for (int i = 0; i < 1000; ++i) {
     const Surface at(random);
     const Basis basis = texture_basis(at.shading, at.dpdu, at.dpdv);
@@ -145,14 +133,14 @@ TEST(NormalMap, BumpAndNormalMapAgree) {
     const vec3 n = 2.0f * rgb - 1.0f;
     const vec3 slope = -(n.x * basis.s + n.y * basis.t) / n.z;
     const vec2 gradient(glm::dot(slope, at.dpdu), glm::dot(slope, at.dpdv));
-    expect_near(bumped_normal(at.shading, at.geometric, at.dpdu, at.dpdv, gradient),
-                mapped_normal(basis, at.geometric, rgb), 2e-5f);
+    expect_close(bumped_normal(at.shading, at.geometric, at.dpdu, at.dpdv, gradient),
+                 mapped_normal(basis, at.geometric, rgb), 2e-5f);
   }
 }
 
 TEST(NormalMap, StaysAboveTheSurface) {
   SCOPED_TRACE(seed_note());
-  Random random(5);
+  RandomNumbers random(5);
   for (int i = 0; i < 5000; ++i) {
     const Surface at(random);
     const Basis basis = texture_basis(at.shading, at.dpdu, at.dpdv);
@@ -165,7 +153,7 @@ TEST(NormalMap, StaysAboveTheSurface) {
       EXPECT_NEAR(glm::length(n), 1, 1e-5);
     }
   }
-  expect_near(kept_above({0, 0, -1}, {0, 0, 1}), {0, 0, 1}, 1e-6f);
+  expect_close(kept_above({0, 0, -1}, {0, 0, 1}), {0, 0, 1}, 1e-6f);
 }
 
 TEST(NormalMap, OddInputs) {

@@ -75,19 +75,19 @@ void expect_dark(SceneMaker scene) {
   }
 }
 
-const vec3 kLe{3, 2, 1};
+const vec3 kEmitted{3, 2, 1};
 
 TEST(ClosedFormRender, SphereLightIrradianceIsTheConesCosineIntegral) {
   SceneMaker s = plane_scene(256);
-  s.sphere({-1, 2.5f, 1}, 1.5f, s.diffuse(vec3(0), kLe));
+  s.sphere({-1, 2.5f, 1}, 1.5f, s.diffuse(vec3(0), kEmitted));
   double distance = std::sqrt(1 + 2.5 * 2.5 + 1);
-  expect_irradiance(s, dvec3(kLe) * sphere_irradiance(1.5, distance, 2.5 / distance));
+  expect_irradiance(s, dvec3(kEmitted) * sphere_irradiance(1.5, distance, 2.5 / distance));
 }
 
 TEST(ClosedFormRender, SmallFarSphereLightKeepsItsPrecision) {
   SceneMaker s = plane_scene(64);
-  s.sphere({0, 500, 0}, 1, s.diffuse(vec3(0), 1e5f * kLe));
-  expect_irradiance(s, 1e5 * dvec3(kLe) * sphere_irradiance(1, 500, 1), false);
+  s.sphere({0, 500, 0}, 1, s.diffuse(vec3(0), 1e5f * kEmitted));
+  expect_irradiance(s, 1e5 * dvec3(kEmitted) * sphere_irradiance(1, 500, 1), false);
 }
 
 TEST(ClosedFormRender, InsideATwoSidedSphereThereIsItsRadianceAllAround) {
@@ -97,11 +97,11 @@ TEST(ClosedFormRender, InsideATwoSidedSphereThereIsItsRadianceAllAround) {
     s.rectangle({0, 0, 0}, {0, 0, 0.5f}, {0.5f, 0, 0}, 0);
     Material m;
     color(m, "diffuse") = vec3(0);
-    m.emission = kLe;
+    m.emission = kEmitted;
     m.two_sided_emission = two_sided;
     s.sphere({0.5f, 0.25f, 0}, 2, s.material(m));
     if (two_sided)
-      expect_irradiance(s, kPiD * dvec3(kLe));
+      expect_irradiance(s, kPiD * dvec3(kEmitted));
     else
       expect_dark(s);
   }
@@ -112,11 +112,11 @@ TEST(ClosedFormRender, DiscLightOnItsAxis) {
     SceneMaker s = plane_scene(256);
     Material m;
     color(m, "diffuse") = vec3(0);
-    m.emission = kLe;
+    m.emission = kEmitted;
     m.two_sided_emission = turned;
     vec3 x(1, 0, 0), z(0, 0, 1);
     s.disc({0, 1.25f, 0}, 1.5f, turned ? z : x, turned ? x : z, s.material(m));
-    expect_irradiance(s, dvec3(kLe) * disc_irradiance(1.5, 1.25));
+    expect_irradiance(s, dvec3(kEmitted) * disc_irradiance(1.5, 1.25));
     if (turned) {
       s.document.scene.materials.back().two_sided_emission = false;
       expect_dark(s);
@@ -129,14 +129,14 @@ TEST(ClosedFormRender, ParallelRectangleLight) {
     SceneMaker s = plane_scene(256);
     Material m;
     color(m, "diffuse") = vec3(0);
-    m.emission = kLe;
+    m.emission = kEmitted;
     m.two_sided_emission = turned;
     vec3 x(0.75f, 0, 0), z(0, 0, 1);
     s.rectangle({-0.75f, 1.5f, -1}, turned ? z : x, turned ? x : z, s.material(m));
     double factor = parallel_rectangle_factor(1.5, 2, 1.5);
     std::vector<dvec3> corners{{0, 1.5, 0}, {-1.5, 1.5, 0}, {-1.5, 1.5, -2}, {0, 1.5, -2}};
     EXPECT_NEAR(kPiD * factor, polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners), 1e-12);
-    expect_irradiance(s, kPiD * factor * dvec3(kLe));
+    expect_irradiance(s, kPiD * factor * dvec3(kEmitted));
     if (turned) {
       s.document.scene.materials.back().two_sided_emission = false;
       expect_dark(s);
@@ -148,26 +148,26 @@ TEST(ClosedFormRender, PerpendicularRectangleLight) {
   SceneMaker s = plane_scene(256);
   // In the plane x = -1 from its meeting line with the ground upwards: z from 0 to 2, y from 0 to 3; normal
   // +x.
-  s.rectangle({-1, 1.5f, 1}, {0, 1.5f, 0}, {0, 0, 1}, s.diffuse(vec3(0), kLe));
+  s.rectangle({-1, 1.5f, 1}, {0, 1.5f, 0}, {0, 0, 1}, s.diffuse(vec3(0), kEmitted));
   double factor = perpendicular_rectangle_factor(3, 2, 1);
   std::vector<dvec3> corners{{-1, 0, 0}, {-1, 3, 0}, {-1, 3, 2}, {-1, 0, 2}};
   EXPECT_NEAR(kPiD * factor, polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners), 1e-12);
-  expect_irradiance(s, kPiD * factor * dvec3(kLe));
+  expect_irradiance(s, kPiD * factor * dvec3(kEmitted));
 }
 
 TEST(ClosedFormRender, SmallFarRectangleLightIsSampledByArea) {
   SceneMaker s = plane_scene(64);
-  s.rectangle({0, 100, 0}, {0.05f, 0, 0}, {0, 0, 0.05f}, s.diffuse(vec3(0), 1e6f * kLe));
+  s.rectangle({0, 100, 0}, {0.05f, 0, 0}, {0, 0, 0.05f}, s.diffuse(vec3(0), 1e6f * kEmitted));
   double e = kPiD * 4 * parallel_rectangle_factor(0.05, 0.05, 100);
-  expect_irradiance(s, 1e6 * e * dvec3(kLe), false);
+  expect_irradiance(s, 1e6 * e * dvec3(kEmitted), false);
 }
 
 TEST(ClosedFormRender, ShearedRectangleLightIsAParallelogram) {
   SceneMaker s = plane_scene(2048);
-  s.rectangle({-0.5f, 2.5f, 0}, {0.75f, 0, 0}, {0.5f, 0.25f, 1}, s.diffuse(vec3(0), kLe));
+  s.rectangle({-0.5f, 2.5f, 0}, {0.75f, 0, 0}, {0.5f, 0.25f, 1}, s.diffuse(vec3(0), kEmitted));
   dvec3 c(-0.5, 2.5, 0), x(0.75, 0, 0), y(0.5, 0.25, 1);
   std::vector<dvec3> corners{c - x - y, c + x - y, c + x + y, c - x + y};
-  expect_irradiance(s, polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners) * dvec3(kLe));
+  expect_irradiance(s, polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners) * dvec3(kEmitted));
 }
 
 TEST(ClosedFormRender, TriangleMeshLight) {
@@ -178,23 +178,23 @@ TEST(ClosedFormRender, TriangleMeshLight) {
   double e = polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners);
   auto shared = std::make_shared<const Mesh>(mesh);
   SceneMaker once = plane_scene(1024);
-  once.mesh_shared(shared, once.diffuse(vec3(0), kLe));
-  expect_irradiance(once, e * dvec3(kLe));
+  once.mesh_shared(shared, once.diffuse(vec3(0), kEmitted));
+  expect_irradiance(once, e * dvec3(kEmitted));
   // Mirrored in the middle plane x = z it is itself with its winding turned over, and still shines downwards.
   SceneMaker mirrored = plane_scene(1024);
   mat4 swap(vec4(0, 0, 1, 0), vec4(0, 1, 0, 0), vec4(1, 0, 0, 0), vec4(0, 0, 0, 1));
-  mirrored.mesh_shared(shared, mirrored.diffuse(vec3(0), kLe), swap);
-  expect_irradiance(mirrored, e * dvec3(kLe));
+  mirrored.mesh_shared(shared, mirrored.diffuse(vec3(0), kEmitted), swap);
+  expect_irradiance(mirrored, e * dvec3(kEmitted));
 }
 
 TEST(ClosedFormRender, PointLightFallsOffWithTheSquare) {
   SceneMaker s = plane_scene(4);
   LightDesc l;
   l.model = PointLightModel{.position = {1, 2, -2}};
-  l.color = kLe;
+  l.color = kEmitted;
   l.scale = 5;
   s.document.scene.lights.push_back(l);
-  expect_irradiance(s, 5.0 * dvec3(kLe) * (2.0 / 3) / 9.0); // at distance 3, under the cosine 2/3
+  expect_irradiance(s, 5.0 * dvec3(kEmitted) * (2.0 / 3) / 9.0); // at distance 3, under the cosine 2/3
 }
 
 TEST(ClosedFormRender, ProfilesShapePointsAndSpots) {
@@ -208,9 +208,9 @@ TEST(ClosedFormRender, ProfilesShapePointsAndSpots) {
     SceneMaker s = plane_scene(4);
     LightDesc l;
     l.model = model;
-    l.color = kLe;
+    l.color = kEmitted;
     s.document.scene.lights.push_back(l);
-    expect_irradiance(s, candela / kDaylightEfficacy * dvec3(kLe) * (2.0 / 3) / 9.0);
+    expect_irradiance(s, candela / kDaylightEfficacy * dvec3(kEmitted) * (2.0 / 3) / 9.0);
   }
 }
 
@@ -220,16 +220,16 @@ TEST(ClosedFormRender, AProjectorSendsItsPicture) {
   SceneMaker s = plane_scene(4);
   LightDesc l;
   l.model = ProjectorLightModel{.position = {1, 2, -2}, .direction = {-1, -2, 2}, .panorama = slide};
-  l.color = 18.0f * kLe;
+  l.color = 18.0f * kEmitted;
   s.document.scene.lights.push_back(l);
-  expect_irradiance(s, dvec3(kLe) * 0.5 * 18.0 * (2.0 / 3) / 9.0); // between both texels
+  expect_irradiance(s, dvec3(kEmitted) * 0.5 * 18.0 * (2.0 / 3) / 9.0); // between both texels
 }
 
 TEST(ClosedFormRender, SunAndSkyGiveWhatTheirRadianceIntegratesTo) {
   SceneMaker s = plane_scene(512);
   LightDesc l;
   l.model = SkyLightModel{.sun_elevation = radians(30.0f), .resolution = 64};
-  l.color = 0.01f * kLe;
+  l.color = 0.01f * kEmitted;
   s.document.scene.lights.push_back(l);
   const auto scene = RenderScene::build(s.document);
   dvec3 irradiance(0);
@@ -250,26 +250,26 @@ TEST(ClosedFormRender, DirectionalLightHasTheCosine) {
   SceneMaker s = plane_scene(4);
   LightDesc l;
   l.model = DirectionalLightModel{{2, -4, 4}}; // any length
-  l.color = kLe;
+  l.color = kEmitted;
   s.document.scene.lights.push_back(l);
-  expect_irradiance(s, dvec3(kLe) * (2.0 / 3));
+  expect_irradiance(s, dvec3(kEmitted) * (2.0 / 3));
   s.document.scene.lights.back().model = DirectionalLightModel{{2, 4, 4}}; // from below
   expect_dark(s);
 }
 
 TEST(ClosedFormRender, ConstantLightGivesPiTimesItsRadiance) {
   SceneMaker s = plane_scene(64);
-  s.constant_light(kLe);
-  expect_irradiance(s, kPiD * dvec3(kLe));
+  s.constant_light(kEmitted);
+  expect_irradiance(s, kPiD * dvec3(kEmitted));
 }
 
 TEST(ClosedFormRender, LightsOfAllKindsAdd) {
   SceneMaker s = plane_scene(512);
-  s.sphere({-3, 2, 0}, 1, s.diffuse(vec3(0), kLe));
+  s.sphere({-3, 2, 0}, 1, s.diffuse(vec3(0), kEmitted));
   double distance = std::sqrt(13.0);
-  dvec3 e = dvec3(kLe) * sphere_irradiance(1, distance, 2 / distance);
-  s.disc({0, 2, 0}, 1, {1, 0, 0}, {0, 0, 1}, s.diffuse(vec3(0), kLe));
-  e += dvec3(kLe) * disc_irradiance(1, 2);
+  dvec3 e = dvec3(kEmitted) * sphere_irradiance(1, distance, 2 / distance);
+  s.disc({0, 2, 0}, 1, {1, 0, 0}, {0, 0, 1}, s.diffuse(vec3(0), kEmitted));
+  e += dvec3(kEmitted) * disc_irradiance(1, 2);
   LightDesc sun;
   sun.model = DirectionalLightModel{{-1, -1, 0}};
   sun.color = {0.5f, 1, 2};

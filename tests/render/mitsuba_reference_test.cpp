@@ -26,7 +26,7 @@ constexpr double kRelativeError = 1.5e-3, kAbsoluteError = 1e-4;
 /// Samples of a pixel of a reference, by the script that makes them.
 constexpr double kReferenceSpp = 32000;
 
-struct Case {
+struct ReferenceCase {
   const char* folder;
   const char* name; ///< of the scene, which ends in _path or _direct, and of its reference
   const char* integrator;
@@ -38,10 +38,10 @@ struct Case {
   int border = 0;
 };
 constexpr ivec2 kPlasticLo{2, 1}, kPlasticHi{4, 3}; ///< in sphere_grid.xml
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
-std::string name_of(const testing::TestParamInfo<Case>& info) { return info.param.name; }
+void PrintTo(const ReferenceCase& c, std::ostream* out) { *out << c.name; }
+std::string name_of(const testing::TestParamInfo<ReferenceCase>& info) { return info.param.name; }
 
-class MitsubaReferenceRender : public testing::TestWithParam<Case> {};
+class MitsubaReferenceRender : public testing::TestWithParam<ReferenceCase> {};
 
 /// Standard deviations of RGB from variances of XYZ that went through the matrix as if they were colours. The
 /// covariances are not known: the bound is that of channels that vary together.
@@ -101,19 +101,19 @@ TEST_P(MitsubaReferenceRender, BlocksAgree) {
 
 INSTANTIATE_TEST_SUITE_P(
     , MitsubaReferenceRender,
-    testing::Values(Case{"bsdf_spheres", "test_constant", "path", kPlasticLo, kPlasticHi},
-                    Case{"bsdf_spheres", "test_arealight", "path", kPlasticLo, kPlasticHi},
-                    Case{"bsdf_spheres", "test_pointlight", "path", kPlasticLo, kPlasticHi},
-                    Case{"bsdf_spheres", "test_roughdielectric", "path"},
-                    Case{"bsdf_spheres", "test_textured_diffuse", "path"},
-                    Case{"bsdf_spheres", "test_texturedprincipled1", "path"},
-                    Case{"floating_sphere", "test_directional", "direct"},
-                    Case{"instancing", "test_instancing", "path"},
-                    Case{"mesh_attributes", "test_mesh_attributes_1_face", "direct"},
-                    Case{"mesh_attributes", "test_mesh_attributes_3_face", "direct"},
-                    Case{"mesh_attributes", "test_mesh_attributes_3_vertex", "direct"},
-                    Case{"projector", "test_projector_constant", "direct", ivec2(0), ivec2(0), 1},
-                    Case{"texture_interp", "test_texture_interp", "direct"}),
+    testing::Values(ReferenceCase{"bsdf_spheres", "test_constant", "path", kPlasticLo, kPlasticHi},
+                    ReferenceCase{"bsdf_spheres", "test_arealight", "path", kPlasticLo, kPlasticHi},
+                    ReferenceCase{"bsdf_spheres", "test_pointlight", "path", kPlasticLo, kPlasticHi},
+                    ReferenceCase{"bsdf_spheres", "test_roughdielectric", "path"},
+                    ReferenceCase{"bsdf_spheres", "test_textured_diffuse", "path"},
+                    ReferenceCase{"bsdf_spheres", "test_texturedprincipled1", "path"},
+                    ReferenceCase{"floating_sphere", "test_directional", "direct"},
+                    ReferenceCase{"instancing", "test_instancing", "path"},
+                    ReferenceCase{"mesh_attributes", "test_mesh_attributes_1_face", "direct"},
+                    ReferenceCase{"mesh_attributes", "test_mesh_attributes_3_face", "direct"},
+                    ReferenceCase{"mesh_attributes", "test_mesh_attributes_3_vertex", "direct"},
+                    ReferenceCase{"projector", "test_projector_constant", "direct", ivec2(0), ivec2(0), 1},
+                    ReferenceCase{"texture_interp", "test_texture_interp", "direct"}),
     name_of);
 
 } // namespace

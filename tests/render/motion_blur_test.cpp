@@ -37,16 +37,16 @@ void expect_columns(const Film& film, Expected expected) {
   EXPECT_GT(between, 4) << "there is a ramp";
 }
 
-constexpr int kWidth = 32, kHeight = 24, kSpp = 64;
+constexpr int kColumns = 32, kRows = 24, kSpp = 64;
 constexpr float kExtent = 3; ///< scene units of the film's height
 /// Where a column of the film begins.
-double column_begin(int x) { return kExtent / kHeight * (x - 0.5 * kWidth); }
+double column_begin(int x) { return kExtent / kRows * (x - 0.5 * kColumns); }
 
 /// A bright bar, in front of nothing, that passes: each pixel shows its share of the shutter's time.
 TEST(MotionBlurRender, ABarThatPassesIsARamp) {
   for (SamplerType type : {SamplerType::independent, SamplerType::sobol})
     for (auto [open, close] : {std::pair(0.0f, 1.0f), {0.25f, 0.625f}, {1.0f, 0.5f}}) {
-      SceneMaker s(kWidth, kHeight, kSpp);
+      SceneMaker s(kColumns, kRows, kSpp);
       look_down(s, kExtent);
       s.rectangle({-1, 0, 0}, {0.4f, 0, 0}, {0, 9, 0}, s.diffuse(vec3(0), vec3(1)));
       s.document.scene.instances[0].motion = translation({2, 0, 0});
@@ -62,7 +62,7 @@ TEST(MotionBlurRender, ABarThatPassesIsARamp) {
 
 /// The same of a mesh whose vertices move, stretching: its left edge half as fast.
 TEST(MotionBlurRender, AMeshThatStretchesIsARampOnEitherSide) {
-  SceneMaker s(kWidth, kHeight, kSpp);
+  SceneMaker s(kColumns, kRows, kSpp);
   look_down(s, kExtent);
   Mesh mesh;
   mesh.positions = {{-1.4f, -9, 0}, {-0.6f, -9, 0}, {-0.6f, 9, 0}, {-1.4f, 9, 0}};
@@ -84,7 +84,7 @@ TEST(MotionBlurRender, AMeshThatStretchesIsARampOnEitherSide) {
 /// throws it elsewhere.
 TEST(MotionBlurRender, TheShadowOfAPlateIsARamp) {
   for (Integrator integrator : {Integrator::path, Integrator::whitted}) {
-    SceneMaker s(kWidth, kHeight, kSpp);
+    SceneMaker s(kColumns, kRows, kSpp);
     look_down(s, kExtent, 1);
     const int white = s.diffuse(vec3(1)), black = s.diffuse(vec3(0));
     s.rectangle({0, 0, 0}, {9, 0, 0}, {0, 9, 0}, white);

@@ -11,7 +11,7 @@
 namespace candela::test {
 namespace {
 
-float unit(std::mt19937_64& random) { return static_cast<float>(random() >> 40) * 0x1p-24f; }
+float unit_float(std::mt19937_64& random) { return static_cast<float>(random() >> 40) * 0x1p-24f; }
 
 TEST(GuidedTable, TheMeasureOfEachIndexIsItsWeight) {
   for (const std::vector<float>& weights :
@@ -43,13 +43,14 @@ TEST(WeightedGridStatistical, DrawsCellsByWeightAndLeavesUniformNumbers) {
   constexpr std::size_t kColumns = 23, kRows = 9;
   std::vector<float> weights(kColumns * kRows);
   double sum = 0;
-  for (float& w : weights) w = unit(random) < 0.2f ? 0 : unit(random), sum += static_cast<double>(w);
+  for (float& w : weights)
+    w = unit_float(random) < 0.2f ? 0 : unit_float(random), sum += static_cast<double>(w);
   WeightedGrid grid(weights, kColumns);
   constexpr int kDraws = 200000;
   std::vector<double> observed(4 * weights.size()), expected;
   for (float w : weights) expected.insert(expected.end(), 4, kDraws * static_cast<double>(w) / sum / 4);
   for (int i = 0; i < kDraws; ++i) {
-    float u = unit(random), v = unit(random);
+    float u = unit_float(random), v = unit_float(random);
     auto s = grid.sample({u, v});
     observed[4 * (s.row * kColumns + s.column) + (s.u.x < 0.5f ? 0 : 1) + (s.u.y < 0.5f ? 0 : 2)] += 1;
   }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kTau = 2 * std::numbers::pi;
 
-double luminance(vec3 c) { return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722)); }
+double luminance_of(vec3 c) { return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722)); }
 
 /// Elevation and azimuth to the right of the middle of a pixel's centre, radians.
 glm::dvec2 angles(const Image& image, int x, int y) {
@@ -26,7 +26,7 @@ TEST(ClearSky, IsFiniteAndOfLuminanceOneAtTheZenith) {
   const Image image = clear_sky_panorama({}, 256, 128, 2);
   ASSERT_EQ(image.pixels.size(), 256u * 128);
   for (vec3 p : image.pixels) ASSERT_TRUE(is_finite(p) && min_component(p) >= 0);
-  for (int x = 0; x < image.width; x += 16) EXPECT_NEAR(luminance(image.at(x, 0)), 1, 0.02);
+  for (int x = 0; x < image.width; x += 16) EXPECT_NEAR(luminance_of(image.at(x, 0)), 1, 0.02);
 }
 
 TEST(ClearSky, TheSunIsWhereItWasPutAndSendsAsMuchWhateverItsSize) {
@@ -40,12 +40,12 @@ TEST(ClearSky, TheSunIsWhereItWasPutAndSendsAsMuchWhateverItsSize) {
     glm::dvec2 center(0);
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x) {
-        const double l = luminance(image.at(x, y));
+        const double l = luminance_of(image.at(x, y));
         if (l < 100) continue; // the sky alone is much darker
         power += l * solid_angle(image, y);
         center += angles(image, x, y) * l * solid_angle(image, y);
       }
-    EXPECT_NEAR(power, 21, 0.8); // as much as 21 sr of the zenith's luminance
+    EXPECT_NEAR(power, 21, 0.8); // as much as 21 sr of the zenith's luminance_of
     EXPECT_NEAR(center.x / power, elevation, 0.003);
     EXPECT_NEAR(center.y / power, azimuth, 0.003);
   }

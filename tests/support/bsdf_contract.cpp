@@ -29,7 +29,7 @@ private:
   std::mt19937_64 random_;
 };
 
-vec3 polar(float degrees_from_normal, float phi) {
+vec3 at_degrees(float degrees_from_normal, float phi) {
   const float theta = radians(degrees_from_normal);
   return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
@@ -110,8 +110,9 @@ std::vector<bool> sides(const TestedBsdf& bsdf) {
 } // namespace
 
 std::vector<vec3> contract_directions() {
-  return {polar(0, 0),        polar(20, 0.3f), polar(45, 2),  polar(75, -1),     polar(88, 4),
-          polar(89.9f, 0.5f), polar(180, 0),   polar(120, 1), polar(100, -2.5f), polar(90.1f, 2.2f)};
+  return {at_degrees(0, 0),       at_degrees(20, 0.3f),    at_degrees(45, 2),  at_degrees(75, -1),
+          at_degrees(88, 4),      at_degrees(89.9f, 0.5f), at_degrees(180, 0), at_degrees(120, 1),
+          at_degrees(100, -2.5f), at_degrees(90.1f, 2.2f)};
 }
 
 void expect_samples_agree(const TestedBsdf& bsdf) {

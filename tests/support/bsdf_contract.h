@@ -41,6 +41,11 @@ TestedBsdf tested(std::string name, const Closure& closure, double width = 2, fl
           width};
 }
 
+/// The direction at the angle theta from the normal and the azimuth phi, radians.
+inline vec3 polar(double theta, double phi) {
+  return vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+}
+
 /// From the normal to 89.9 degrees from it, of several azimuths, on both sides.
 std::vector<vec3> contract_directions();
 

@@ -1,5 +1,6 @@
 #include "app/bench/interaction_bench.h"
 
+#include "app/platform/load_average.h"
 #include "core/error.h"
 #include "core/statistics.h"
 
@@ -45,11 +46,6 @@ double machine_seconds() {
 }
 
 bool moves_mouse(InputKind kind) { return kind == InputKind::camera || kind == InputKind::flight; }
-
-double load_average() {
-  double load = 0;
-  return getloadavg(&load, 1) == 1 ? load : 0;
-}
 
 } // namespace
 

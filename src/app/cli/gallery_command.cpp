@@ -27,7 +27,7 @@ namespace {
 constexpr int kQuickSize = 2;
 constexpr float kQuickSpp = 1.0f / 16;
 /// The reference has a seed of its own: otherwise its error would be correlated with the panels'.
-constexpr int kReferenceSeed = 0x5eed;
+constexpr int kGalleryReferenceSeed = 0x5eed;
 
 struct Rendering {
   Image image;
@@ -109,7 +109,7 @@ private:
                           figure.reference->settings.end());
     panel.spp = figure.reference->spp;
     Document document = document_of(figure, panel);
-    document.settings.sampler.seed ^= kReferenceSeed;
+    document.settings.sampler.seed ^= kGalleryReferenceSeed;
     return document;
   }
 

@@ -5,6 +5,7 @@
 #include "app/console/outputs.h"
 #include "app/figures/figure.h"
 #include "app/platform/data_file.h"
+#include "app/platform/load_average.h"
 #include "app/platform/separate_process.h"
 #include "app/platform/streams.h"
 #include "core/error.h"
@@ -21,7 +22,7 @@ namespace candela {
 
 namespace {
 
-constexpr const char* kLandscape = "landscape";
+constexpr const char* kLandscapePart = "landscape";
 constexpr const char* kStones = "stones";
 constexpr const char* kSpheres = "ten_thousand_spheres";
 constexpr const char* kLights = "many_lights";
@@ -91,14 +92,15 @@ public:
   ScaleReport run() {
     for (const std::string& scene : options_.scenes) report_.scenes.push_back(measured(scene, scene));
     if (!options_.scenes.empty()) return std::move(report_);
-    if (wants(kLandscape) || wants(kStones) || wants(kSweep) || options_.picture)
+    if (wants(kLandscapePart) || wants(kStones) || wants(kSweep) || options_.picture)
       written("textures and sky", [this] {
         write_scale_assets(folder_.path(), extent_.detail);
         return folder_.path();
       });
     std::string landscape;
-    if (wants(kLandscape) || options_.picture) landscape = write_mountains(kLandscape, extent_.landscape);
-    if (wants(kLandscape)) report_.scenes.push_back(measured(landscape, kLandscape));
+    if (wants(kLandscapePart) || options_.picture)
+      landscape = write_mountains(kLandscapePart, extent_.landscape);
+    if (wants(kLandscapePart)) report_.scenes.push_back(measured(landscape, kLandscapePart));
     if (wants(kStones)) report_.scenes.push_back(measured(write_spiral(kStones, extent_.stone), kStones));
     for (const char* bundled : {kSpheres, kLights})
       if (wants(bundled))
@@ -150,8 +152,8 @@ private:
       return found != report_.scenes.end() ? &*found : nullptr;
     };
     for (std::size_t n : extent_.landscapes) {
-      const ScaleResult* same = n == extent_.landscape ? known(kLandscape) : nullptr;
-      const std::string name = fmt::format("{}_{}", kLandscape, n);
+      const ScaleResult* same = n == extent_.landscape ? known(kLandscapePart) : nullptr;
+      const std::string name = fmt::format("{}_{}", kLandscapePart, n);
       report_.landscapes.push_back(same ? *same : measured(write_mountains(name, n), name));
     }
     for (std::size_t n : extent_.stones) {
@@ -175,11 +177,6 @@ private:
   ScaleReport report_;
 };
 
-double load_average() {
-  double load = 0;
-  return getloadavg(&load, 1) == 1 ? load : 0;
-}
-
 void write_plot(const ScaleReport& report, const std::string& path) {
   Figure figure;
   FigurePanel panel;
@@ -192,7 +189,7 @@ void write_plot(const ScaleReport& report, const std::string& path) {
 
 } // namespace
 
-std::vector<std::string> scale_parts() { return {kLandscape, kStones, kSpheres, kLights, kSweep}; }
+std::vector<std::string> scale_parts() { return {kLandscapePart, kStones, kSpheres, kLights, kSweep}; }
 
 int run_scale_bench(const ScaleBenchOptions& o) {
   Extent extent = o.short_run ? short_extent() : Extent{};

@@ -17,10 +17,6 @@ SceneDesc scene_with(std::string_view list, std::string_view type) {
   return parse_candela_json(text, "README.md", PathPolicy(".", false), warnings).scene;
 }
 
-std::string joined(const std::vector<std::string_view>& names) {
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 /// The most common default, then the types with other defaults.
 std::string default_cell(const std::vector<std::string_view>& types, const std::vector<std::string>& values) {
   std::string usual;
@@ -58,8 +54,9 @@ std::string typed_table(const FieldInfo& type_row, const std::vector<T>& default
           of.push_back(type_row.choices[type]), values.push_back(field_text(row, defaults[type]));
     const bool all = of.size() == defaults.size();
     (all ? of_all : of_types) +=
-        fmt::format("| `{}` | {} | {} | {} | {} |\n", line->key, all ? "all" : markdown_cell(joined(of)),
-                    domain(*line), default_cell(of, values), markdown_cell(line->help));
+        fmt::format("| `{}` | {} | {} | {} | {} |\n", line->key,
+                    all ? "all" : markdown_cell(fmt::format("{}", fmt::join(of, ", "))), domain(*line),
+                    default_cell(of, values), markdown_cell(line->help));
   }
   return fmt::format("| key | of | values | default | meaning |\n|---|---|---|---|---|\n"
                      "| `{}` | all | {} | `{}` | {} |\n{}{}",

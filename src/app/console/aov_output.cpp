@@ -12,18 +12,18 @@ namespace candela {
 namespace {
 
 constexpr std::string_view kComponents[] = {"emitted", "direct", "indirect"};
-constexpr std::string_view kGroups = "light_groups";
+constexpr std::string_view kLightGroups = "light_groups";
 
 Aov parse_aov(const std::string& name) {
   const auto* component = std::ranges::find(kComponents, name);
   if (component != std::end(kComponents))
     return {.name = name, .component = static_cast<int>(component - kComponents)};
-  if (name == kGroups) return {.name = name, .groups = true};
+  if (name == kLightGroups) return {.name = name, .groups = true};
   std::span<const std::string_view> views = find_setting("view")->choices;
   auto view = std::ranges::find(views, name);
   if (view != views.end()) return {.name = name, .view = static_cast<View>(view - views.begin())};
   std::vector<std::string_view> all(std::begin(kComponents), std::end(kComponents));
-  all.push_back(kGroups);
+  all.push_back(kLightGroups);
   all.insert(all.end(), views.begin(), views.end());
   throw usage_error(fmt::format("--aov {}", name), "there is no such output",
                     fmt::format("give one of {}", fmt::join(all, ", ")));
@@ -46,7 +46,8 @@ void check_aovs(const std::vector<Aov>& aovs, const Document& document) {
   const std::string problem = layers_problem(document);
   if (problem.empty()) return;
   const std::size_t split = problem.find("; ");
-  throw usage_error(fmt::format("--aov {}", kGroups), problem.substr(0, split), problem.substr(split + 2));
+  throw usage_error(fmt::format("--aov {}", kLightGroups), problem.substr(0, split),
+                    problem.substr(split + 2));
 }
 
 std::vector<std::string> aov_paths(const Aov& aov, const std::vector<std::string>& outputs) {

@@ -38,9 +38,9 @@ void ProgressBar::update(double fraction, const std::string& text) {
   double left = fraction > 0 ? elapsed.count() * (1 - fraction) / fraction : 0;
   const std::string time_left = duration_text(left) + " left";
   if (terminal_) {
-    constexpr int kWidth = 30;
-    int full = std::clamp(static_cast<int>(fraction * kWidth + 0.5), 0, kWidth);
-    say("\r[{:#<{}}{:.<{}}] {:3.0f} %  {}  {}\x1b[K", "", full, "", kWidth - full, 100 * fraction, text,
+    constexpr int kBarWidth = 30;
+    int full = std::clamp(static_cast<int>(fraction * kBarWidth + 0.5), 0, kBarWidth);
+    say("\r[{:#<{}}{:.<{}}] {:3.0f} %  {}  {}\x1b[K", "", full, "", kBarWidth - full, 100 * fraction, text,
         time_left);
     drawn_ = true;
   } else {

@@ -1,5 +1,7 @@
 #include "app/figures/canvas.h"
 
+#include "core/segment.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,13 +13,6 @@ Box overlap(const Box& a, const Box& b) {
   const int x0 = std::max(a.x, b.x), y0 = std::max(a.y, b.y);
   return {x0, y0, std::max(0, std::min(a.x + a.width, b.x + b.width) - x0),
           std::max(0, std::min(a.y + a.height, b.y + b.height) - y0)};
-}
-
-float distance_to_segment(vec2 p, vec2 a, vec2 b) {
-  const vec2 along = b - a;
-  const float length2 = glm::dot(along, along);
-  const float t = length2 > 0 ? std::clamp(glm::dot(p - a, along) / length2, 0.0f, 1.0f) : 0.0f;
-  return glm::length(p - a - t * along);
 }
 
 } // namespace

@@ -10,8 +10,8 @@ namespace {
 // Lengths at scale 1, pixels.
 constexpr float kFigureTitle = 20, kPanelTitle = 16, kCaption = 14;
 constexpr float kMargin = 14, kGap = 14, kSmallGap = 6;
-constexpr float kLeastPanel = 190;                   // narrower panels could not hold their captions
-constexpr float kPlotWidth = 440, kPlotHeight = 320; // without a picture that sets the size
+constexpr float kLeastPanel = 190; // narrower panels could not hold their captions
+constexpr float kDefaultPlotWidth = 440, kDefaultPlotHeight = 320; // without a picture that sets the size
 constexpr float kBarHeight = 12;
 constexpr Rgb8 kGround{255, 255, 255}, kText{25, 25, 25}, kDim{80, 80, 80};
 
@@ -108,7 +108,7 @@ private:
   ivec2 content_size(std::size_t panel) const {
     const FigurePanel& p = figure_.panels[panel];
     if (!p.plot) return picture_size(p.picture);
-    ivec2 size(px(kPlotWidth), px(kPlotHeight));
+    ivec2 size(px(kDefaultPlotWidth), px(kDefaultPlotHeight));
     for (const FigurePanel& other : figure_.panels)
       if (!other.plot) size = glm::max(size, ivec2(picture_size(other.picture).x, 0));
     return size;

@@ -14,7 +14,7 @@ namespace candela {
 
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 24;
+constexpr std::size_t kMaxGalleryBytes = std::size_t{1} << 24;
 constexpr int kMaxSpp = 1 << 24;
 constexpr std::uint32_t kMaxFigures = 1000, kMaxPanels = 64, kMaxDetails = 8, kMaxPlotPoints = 64;
 /// Limit of the pixels of all panels of a figure.
@@ -24,7 +24,7 @@ class GalleryReader {
 public:
   explicit GalleryReader(const std::string& path)
       : folder_(folder_of(path)), policy_(folder_, false),
-        tree_(path, read_text_file(path, "gallery", kMaxBytes)) {}
+        tree_(path, read_text_file(path, "gallery", kMaxGalleryBytes)) {}
 
   std::vector<GalleryFigure> run() {
     constexpr std::string_view kKeys[] = {"gallery", "figures"};

@@ -7,36 +7,36 @@
 
 namespace candela {
 
-void Canvas::curve(std::span<const vec2> points, ImU32 color, float width) const {
+void LabCanvas::curve(std::span<const vec2> points, ImU32 color, float width) const {
   std::vector<ImVec2> line;
   line.reserve(points.size());
   for (vec2 p : points) line.push_back(at(p));
   list->AddPolyline(line.data(), static_cast<int>(line.size()), color, ImDrawFlags_None, width);
 }
 
-void Canvas::circle(vec2 center, float radius, ImU32 color, float width) const {
+void LabCanvas::circle(vec2 center, float radius, ImU32 color, float width) const {
   list->AddCircle(at(center), radius * (hi.x - lo.x) / (data_hi.x - data_lo.x), color, 96, width);
 }
 
-void Canvas::dot(vec2 p, float pixels, ImU32 color) const {
+void LabCanvas::dot(vec2 p, float pixels, ImU32 color) const {
   const ImVec2 c = at(p);
   list->AddRectFilled({c.x - 0.5f * pixels, c.y - 0.5f * pixels}, {c.x + 0.5f * pixels, c.y + 0.5f * pixels},
                       color);
 }
 
-Canvas begin_canvas(Ui& ui, const char* name, vec2 size, vec2 data_lo, vec2 data_hi) {
+LabCanvas begin_canvas(Ui& ui, const char* name, vec2 size, vec2 data_lo, vec2 data_hi) {
   size = glm::max(glm::floor(size), vec2(1));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton(name, ImVec2(size.x, size.y));
   ui.record(name);
-  Canvas canvas{ImGui::GetWindowDrawList(), vec2(at.x, at.y), vec2(at.x, at.y) + size, data_lo, data_hi};
+  LabCanvas canvas{ImGui::GetWindowDrawList(), vec2(at.x, at.y), vec2(at.x, at.y) + size, data_lo, data_hi};
   const ImVec2 end(canvas.hi.x, canvas.hi.y);
   canvas.list->AddRectFilled(at, end, IM_COL32(24, 24, 24, 255));
   canvas.list->PushClipRect(at, end, true);
   return canvas;
 }
 
-void end_canvas(const Canvas& canvas) { canvas.list->PopClipRect(); }
+void end_canvas(const LabCanvas& canvas) { canvas.list->PopClipRect(); }
 
 void OrbitView::drag() {
   if (!ImGui::IsItemActive()) return;
@@ -56,7 +56,7 @@ vec3 OrbitView::to_view(vec3 w) const {
 namespace {
 
 template <class F>
-void draw_curve(const Canvas& canvas, const OrbitView& view, int steps, ImU32 color, const F& f) {
+void draw_curve(const LabCanvas& canvas, const OrbitView& view, int steps, ImU32 color, const F& f) {
   std::vector<vec2> points;
   for (int i = 0; i <= steps; ++i)
     points.push_back(view.project(f(static_cast<float>(i) / static_cast<float>(steps))));
@@ -69,14 +69,14 @@ vec3 on_circle(float turns, float radius, float z) {
 
 } // namespace
 
-void draw_ground(const Canvas& canvas, const OrbitView& view) {
+void draw_ground(const LabCanvas& canvas, const OrbitView& view) {
   draw_curve(canvas, view, 64, kLabGrid, [](float t) { return on_circle(t, 1, 0); });
   draw_curve(canvas, view, 64, kLabGrid, [](float t) { return on_circle(t, 0.5f, 0); });
   canvas.line(view.project({-1, 0, 0}), view.project({1, 0, 0}), kLabGrid);
   canvas.line(view.project({0, -1, 0}), view.project({0, 1, 0}), kLabGrid);
 }
 
-void draw_globe(const Canvas& canvas, const OrbitView& view, bool upper_half) {
+void draw_globe(const LabCanvas& canvas, const OrbitView& view, bool upper_half) {
   for (int parallel = upper_half ? 0 : -2; parallel <= 2; ++parallel) {
     const float latitude = static_cast<float>(parallel) * kPi / 6;
     draw_curve(canvas, view, 64, kLabGrid,
@@ -91,7 +91,8 @@ void draw_globe(const Canvas& canvas, const OrbitView& view, bool upper_half) {
   }
 }
 
-void draw_arrow(const Canvas& canvas, const OrbitView& view, vec3 from, vec3 to, ImU32 color, float width) {
+void draw_arrow(const LabCanvas& canvas, const OrbitView& view, vec3 from, vec3 to, ImU32 color,
+                float width) {
   const ImVec2 a = canvas.at(view.project(from)), b = canvas.at(view.project(to));
   canvas.list->AddLine(a, b, color, width);
   const vec2 along(b.x - a.x, b.y - a.y);
@@ -106,7 +107,7 @@ void number_map(Ui& ui, const char* name, const char* title, std::span<const dou
                 int rows, double most, vec2 size) {
   ImGui::BeginGroup();
   ImGui::TextDisabled("%s", title);
-  const Canvas canvas = begin_canvas(ui, name, size, vec2(0, rows), vec2(columns, 0));
+  const LabCanvas canvas = begin_canvas(ui, name, size, vec2(0, rows), vec2(columns, 0));
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
       const double value = values[static_cast<std::size_t>(row * columns + column)];

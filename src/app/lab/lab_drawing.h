@@ -13,7 +13,7 @@
 namespace candela {
 
 /// A framed rectangle of the current window that data is drawn into.
-struct Canvas {
+struct LabCanvas {
   ImDrawList* list = nullptr;
   vec2 lo{0}, hi{0};           ///< pixels
   vec2 data_lo{0}, data_hi{1}; ///< data coordinates at the bottom left and the top right
@@ -30,8 +30,8 @@ struct Canvas {
 
 /// Reserves `size` pixels of the window that react to the mouse, and records them under `name`. Drawing is
 /// clipped to them until end_canvas().
-Canvas begin_canvas(Ui& ui, const char* name, vec2 size, vec2 data_lo, vec2 data_hi);
-void end_canvas(const Canvas& canvas);
+LabCanvas begin_canvas(Ui& ui, const char* name, vec2 size, vec2 data_lo, vec2 data_hi);
+void end_canvas(const LabCanvas& canvas);
 
 /// A view of the origin that dragging with the left button rotates; z is up.
 class OrbitView {
@@ -47,10 +47,10 @@ private:
 };
 
 /// A circle of radius 1 about the origin and a cross, in the plane z = 0.
-void draw_ground(const Canvas& canvas, const OrbitView& view);
+void draw_ground(const LabCanvas& canvas, const OrbitView& view);
 /// The unit sphere's outline with meridians and parallels, or those of its upper half.
-void draw_globe(const Canvas& canvas, const OrbitView& view, bool upper_half);
-void draw_arrow(const Canvas& canvas, const OrbitView& view, vec3 from, vec3 to, ImU32 color, float width);
+void draw_globe(const LabCanvas& canvas, const OrbitView& view, bool upper_half);
+void draw_arrow(const LabCanvas& canvas, const OrbitView& view, vec3 from, vec3 to, ImU32 color, float width);
 
 /// A map of columns x rows numbers, row 0 at the top. The colours of viridis show square roots from 0 to that
 /// of `most`, so that small values are visible.

@@ -1,6 +1,7 @@
 #include "app/lab/panels_lab.h"
 
 #include "app/lab/lab_drawing.h"
+#include "app/ui/pane.h"
 #include "lab/lessons.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,8 @@ namespace candela {
 
 namespace {
 
-constexpr float kWidth = 452; // at scale 1: half of the picture in a small window
+constexpr float kPaneAlpha = 0.97f;
+constexpr float kPanelWidth = 452; // at scale 1: half of the picture in a small window
 
 std::unique_ptr<LabPage> make_page(std::string_view lesson_name) {
   if (lesson_name == "pi") return make_pi_page();
@@ -21,17 +23,6 @@ std::unique_ptr<LabPage> make_page(std::string_view lesson_name) {
   if (lesson_name == "warps") return make_warps_page();
   if (lesson_name == "lens") return make_lens_page();
   return make_brdf_page();
-}
-
-bool begin_part(const char* name, vec2 position, vec2 size, ImGuiWindowFlags flags) {
-  ImGui::SetNextWindowPos(ImVec2(position.x, position.y));
-  ImGui::SetNextWindowSize(ImVec2(size.x, size.y));
-  ImGui::SetNextWindowBgAlpha(0.97f);
-  return ImGui::Begin(name, nullptr,
-                      flags | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                          ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
-                          ImGuiWindowFlags_NoBringToFrontOnFocus);
 }
 
 } // namespace
@@ -52,7 +43,7 @@ LabPanel::LabPanel(std::function<void()> wake) : worker_(std::move(wake)) {
 
 LabPanel::~LabPanel() = default;
 
-float LabPanel::width(float scale, float room) { return std::min(kWidth * scale, room); }
+float LabPanel::width(float scale, float room) { return std::min(kPanelWidth * scale, room); }
 
 void LabPanel::draw(Ui& ui, bool& visible, vec2 position, vec2 room) {
   worker_.run_completions();
@@ -64,7 +55,8 @@ void LabPanel::draw(Ui& ui, bool& visible, vec2 position, vec2 room) {
   const float wrap = std::max(width - 2 * style.WindowPadding.x, 1.0f);
   const float head = ImGui::GetFrameHeightWithSpacing() + 2 * style.WindowPadding.y +
                      ImGui::CalcTextSize(look_at.c_str(), nullptr, false, wrap).y;
-  if (begin_part("##lab_head", position, vec2(width, std::min(head, room.y)), ImGuiWindowFlags_NoScrollbar)) {
+  ImGui::SetNextWindowBgAlpha(kPaneAlpha);
+  if (begin_pane("##lab_head", position, vec2(width, std::min(head, room.y)), ImGuiWindowFlags_NoScrollbar)) {
     const float close = 60 * ui.scale();
     for (std::size_t i = 0; i < pages_.size(); ++i) {
       const std::string name(lessons()[i].name);
@@ -84,7 +76,8 @@ void LabPanel::draw(Ui& ui, bool& visible, vec2 position, vec2 room) {
   }
   ImGui::End();
   const std::string body = fmt::format("##lab_{}", page_); // each page keeps its own scroll
-  if (begin_part(body.c_str(), position + vec2(0, head), vec2(width, std::max(room.y - head, 1.0f)),
+  ImGui::SetNextWindowBgAlpha(kPaneAlpha);
+  if (begin_pane(body.c_str(), position + vec2(0, head), vec2(width, std::max(room.y - head, 1.0f)),
                  ImGuiWindowFlags_AlwaysVerticalScrollbar)) {
     pages_[page_]->draw(ui, sampler_);
     pages_[page_]->step(worker_);

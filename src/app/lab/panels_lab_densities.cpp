@@ -17,11 +17,12 @@ namespace candela {
 
 namespace {
 
-struct Samples {
+struct DensitySamples {
   int samples = 1000000;
 };
-const Field<Samples> kSamplesField = {{"samples", FieldType::integer, 1, 1e9, "", "Samples to draw"},
-                                      [](Samples& o) -> void* { return &o.samples; }};
+const Field<DensitySamples> kDensitySamplesField = {
+    {"samples", FieldType::integer, 1, 1e9, "", "DensitySamples to draw"},
+    [](DensitySamples& o) -> void* { return &o.samples; }};
 
 /// The test's numbers, and the counts next to those expected of the density. They are divided by `measure`, a
 /// cell's area or solid angle, to show densities. Only the first `rows` rows are shown.
@@ -57,7 +58,7 @@ class WarpsPage : public LabPage {
 public:
   void draw(Ui& ui, Document& sampler) override {
     sampler_fields(ui, sampler);
-    lab_field(ui, kSamplesField, samples_, Samples{});
+    lab_field(ui, kDensitySamplesField, samples_, DensitySamples{});
     const WarpOptions defaults;
     for (const auto& row : warp_fields())
       if (warp_uses(options_.warp, row.key)) lab_field(ui, row, options_, defaults);
@@ -100,7 +101,7 @@ private:
   static void draw_square(Ui& ui, const WarpLesson& lesson, float side) {
     ImGui::BeginGroup();
     ImGui::TextDisabled("the square");
-    const Canvas canvas = begin_canvas(ui, "lab.square", vec2(side), vec2(-0.05f), vec2(1.05f));
+    const LabCanvas canvas = begin_canvas(ui, "lab.square", vec2(side), vec2(-0.05f), vec2(1.05f));
     for (int i = 0; i <= kLines; ++i) {
       const float t = static_cast<float>(i) / kLines;
       canvas.line({t, 0}, {t, 1}, kLabMiss);
@@ -121,7 +122,7 @@ private:
     ImGui::TextDisabled("%s", turns ? "mapped points (drag to rotate)" : "mapped points");
     vec2 lo(-1.1f), hi(1.1f);
     if (options_.warp == Warp::triangle) lo = {-0.05f, -0.12f}, hi = {1.05f, 0.98f};
-    const Canvas canvas = begin_canvas(ui, "lab.domain", vec2(side), lo, hi);
+    const LabCanvas canvas = begin_canvas(ui, "lab.domain", vec2(side), lo, hi);
     if (turns) {
       view_.drag();
       draw_globe(canvas, view_, options_.warp != Warp::sphere && options_.warp != Warp::cone);
@@ -157,7 +158,7 @@ private:
     ImGui::EndGroup();
   }
 
-  Samples samples_;
+  DensitySamples samples_;
   WarpOptions options_;
   OrbitView view_;
   LabJob<WarpLesson> job_;
@@ -174,14 +175,14 @@ public:
     const BrdfOptions defaults;
     for (const auto& row : brdf_fields()) lab_field(ui, row, options_, defaults);
     sampler_fields(ui, sampler);
-    lab_field(ui, kSamplesField, samples_, Samples{});
+    lab_field(ui, kDensitySamplesField, samples_, DensitySamples{});
     restart_what_changed(sample_source(sampler.settings.sampler));
 
     ImGui::TextDisabled("f cos in every direction: drag to rotate, right-drag to tilt wo");
     const float width = ImGui::GetContentRegionAvail().x, height = std::min(0.72f * width, 320 * ui.scale());
     const float aspect = width / height;
-    const Canvas canvas = begin_canvas(ui, "lab.lobe", {width, height}, vec2(-1.15f * aspect, -1.0f),
-                                       vec2(1.15f * aspect, 1.3f));
+    const LabCanvas canvas = begin_canvas(ui, "lab.lobe", {width, height}, vec2(-1.15f * aspect, -1.0f),
+                                          vec2(1.15f * aspect, 1.3f));
     view_.drag();
     if (ImGui::IsItemHovered() && ImGui::IsMouseDown(ImGuiMouseButton_Right))
       options_.theta =
@@ -228,7 +229,7 @@ private:
     });
   }
 
-  void draw_lobe(const Canvas& canvas, float unit) const {
+  void draw_lobe(const LabCanvas& canvas, float unit) const {
     draw_ground(canvas, view_);
     draw_arrow(canvas, view_, vec3(0), {0, 0, 1.15f}, IM_COL32(150, 150, 150, 255), 1.2f * unit);
     const Bsdf bsdf = lab_bsdf(material_);
@@ -294,7 +295,7 @@ private:
     }
   }
 
-  Samples samples_;
+  DensitySamples samples_;
   MaterialChoice material_ = lab_material();
   BrdfOptions options_;
   OrbitView view_;

@@ -35,7 +35,7 @@ const Field<Run> kRunFields[] = {
 
 constexpr std::uint64_t kShownDraws = 6000; // more would overlap
 
-void draw_experiment(const Canvas& canvas, const Estimation<PiExperiment>& lesson, float unit) {
+void draw_experiment(const LabCanvas& canvas, const Estimation<PiExperiment>& lesson, float unit) {
   for (std::uint64_t i = 0; i < std::min(lesson.done(), kShownDraws); ++i) {
     const Draw draw = lesson.replay(i);
     canvas.dot(draw.position, 1.5f * unit, draw.hit ? kLabHit : kLabMiss);
@@ -43,7 +43,7 @@ void draw_experiment(const Canvas& canvas, const Estimation<PiExperiment>& lesso
   canvas.circle(vec2(0), 1, kLabInk, 1.5f * unit);
 }
 
-void draw_experiment(const Canvas& canvas, const Estimation<SolidAngleExperiment>& lesson, float unit) {
+void draw_experiment(const LabCanvas& canvas, const Estimation<SolidAngleExperiment>& lesson, float unit) {
   for (std::uint64_t i = 0; i < std::min(lesson.done(), kShownDraws); ++i) {
     const Draw draw = lesson.replay(i);
     canvas.dot(draw.position, 1.5f * unit, draw.hit ? kLabHit : kLabMiss);
@@ -52,7 +52,7 @@ void draw_experiment(const Canvas& canvas, const Estimation<SolidAngleExperiment
   canvas.circle(vec2(0), std::numbers::sqrt2_v<float> / 2, kLabInk, 1.5f * unit); // the disc's edge
 }
 
-void draw_experiment(const Canvas& canvas, const Estimation<IntegralExperiment>& lesson, float unit) {
+void draw_experiment(const LabCanvas& canvas, const Estimation<IntegralExperiment>& lesson, float unit) {
   const IntegralExperiment& experiment = lesson.experiment();
   constexpr int kSteps = 400;
   std::vector<vec2> curve, density;
@@ -104,7 +104,7 @@ public:
     ImGui::TextDisabled("%s", picture.caption);
     const float width = ImGui::GetContentRegionAvail().x;
     const float side = std::min(width / picture.aspect, 250 * ui.scale());
-    const Canvas canvas =
+    const LabCanvas canvas =
         begin_canvas(ui, "lab.picture", vec2(side * picture.aspect, side), picture.lo, picture.hi);
     draw_experiment(canvas, *lesson, ui.scale());
     end_canvas(canvas);

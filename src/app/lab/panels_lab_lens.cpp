@@ -15,11 +15,11 @@ namespace candela {
 
 namespace {
 
-struct Samples {
+struct RaySamples {
   int samples = 100000;
 };
-const Field<Samples> kSamplesField = {{"samples", FieldType::integer, 1, 1e9, "", "Rays to sample"},
-                                      [](Samples& o) -> void* { return &o.samples; }};
+const Field<RaySamples> kRaySamplesField = {{"samples", FieldType::integer, 1, 1e9, "", "Rays to sample"},
+                                            [](RaySamples& o) -> void* { return &o.samples; }};
 
 class LensPage : public LabPage {
 public:
@@ -27,7 +27,7 @@ public:
     const LensOptions defaults;
     for (const auto& row : lens_fields()) lab_field(ui, row, options_, defaults);
     sampler_fields(ui, sampler);
-    lab_field(ui, kSamplesField, samples_, Samples{});
+    lab_field(ui, kRaySamplesField, samples_, RaySamples{});
     restart_what_changed(sample_source(sampler.settings.sampler));
     const LensLesson* lesson = job_.shown();
     if (lesson == nullptr) return;
@@ -81,7 +81,7 @@ private:
     // One scale for both axes.
     const float scale = std::min(width / (hi.x - lo.x), height / (hi.y - lo.y));
     const vec2 middle = 0.5f * (lo + hi), half = 0.5f * vec2(width, height) / scale;
-    const Canvas canvas = begin_canvas(ui, "lab.section", {width, height}, middle - half, middle + half);
+    const LabCanvas canvas = begin_canvas(ui, "lab.section", {width, height}, middle - half, middle + half);
     canvas.line({lo.x, 0}, {hi.x, 0}, kLabGrid);
     for (const LensPath& path : lens_paths(lens, lesson.options().film_height, kRays, 2 * beyond))
       canvas.curve(path.points,
@@ -95,7 +95,7 @@ private:
     end_canvas(canvas);
   }
 
-  Samples samples_;
+  RaySamples samples_;
   LensOptions options_;
   LabJob<LensLesson> job_;
   std::optional<Inputs> inputs_;

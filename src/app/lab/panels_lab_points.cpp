@@ -133,7 +133,7 @@ private:
                            *std::ranges::max_element(counts)),
                "An elementary interval of a (0,2)-net with as many points as boxes holds exactly one");
     const float side = std::min(ImGui::GetContentRegionAvail().x, 380 * ui.scale());
-    const Canvas canvas = begin_canvas(ui, "lab.picture", vec2(side), vec2(0), vec2(1));
+    const LabCanvas canvas = begin_canvas(ui, "lab.picture", vec2(side), vec2(0), vec2(1));
     const vec2 box = 1.0f / vec2(columns, rows);
     const double share = static_cast<double>(points_.size()) / static_cast<double>(counts.size());
     for (int row = 0; row < rows; ++row)

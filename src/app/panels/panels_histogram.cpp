@@ -14,7 +14,7 @@ namespace {
 // Stops from middle grey that the plot spans; a display shows about -7 to +2.5.
 constexpr float kLow = -10, kHigh = 8;
 
-struct Plot {
+struct HistogramPlot {
   ImVec2 lo, hi;
   float x(float stops) const { return lo.x + (stops - kLow) / (kHigh - kLow) * (hi.x - lo.x); }
 };
@@ -27,7 +27,7 @@ std::string percent(std::size_t part, std::size_t whole) {
 
 /// Columns of one channel, in stops from middle grey at `grey` (log2). Heights are square roots, so that
 /// small counts are visible next to large ones.
-void draw_channel(ImDrawList& list, const Plot& plot, const LogHistogram& histogram,
+void draw_channel(ImDrawList& list, const HistogramPlot& plot, const LogHistogram& histogram,
                   LogHistogram::Channel channel, float grey, float largest, ImU32 color) {
   const auto& counts = histogram.counts[channel];
   for (std::size_t bin = 0; bin < LogHistogram::kBins; ++bin) {
@@ -46,7 +46,7 @@ std::uint32_t largest_count(const LogHistogram& histogram) {
   return largest;
 }
 
-void draw_marker(ImDrawList& list, const Plot& plot, float stops, const char* label, float unit) {
+void draw_marker(ImDrawList& list, const HistogramPlot& plot, float stops, const char* label, float unit) {
   if (!(stops > kLow && stops < kHigh)) return;
   const float x = std::round(plot.x(stops));
   list.AddLine(ImVec2(x, plot.lo.y), ImVec2(x, plot.hi.y), IM_COL32(235, 235, 235, 150), unit);
@@ -55,7 +55,7 @@ void draw_marker(ImDrawList& list, const Plot& plot, float stops, const char* la
   list.AddText(ImVec2(left, plot.lo.y + 2 * unit), IM_COL32(235, 235, 235, 200), label);
 }
 
-void draw_ticks(ImDrawList& list, const Plot& plot, float unit) {
+void draw_ticks(ImDrawList& list, const HistogramPlot& plot, float unit) {
   const ImU32 color = ImGui::GetColorU32(ImGuiCol_TextDisabled);
   for (int stop = static_cast<int>(kLow); stop <= static_cast<int>(kHigh); stop += 2) {
     const float x = std::round(plot.x(static_cast<float>(stop)));
@@ -76,7 +76,7 @@ void histogram_plot(Ui& ui, ViewerState& state, const LogHistogram* histogram) {
   ImGui::InvisibleButton("##histogram", ImVec2(width, height + 6 * unit + ImGui::GetTextLineHeight()));
   ui.record("histogram.plot");
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const Plot plot{at, ImVec2(at.x + width, at.y + height)};
+  const HistogramPlot plot{at, ImVec2(at.x + width, at.y + height)};
   list.AddRectFilled(plot.lo, plot.hi, IM_COL32(18, 18, 18, 255));
   const bool exposed =
       state.picture && !state.picture->transform.false_color && state.picture->frame->view == View::radiance;

@@ -11,9 +11,9 @@ namespace candela {
 
 namespace {
 
-constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoInputs;
+constexpr ImGuiWindowFlags kProbeWindow = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                                          ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoInputs;
 
 /// Four digits, of constant length except for the sign and huge or tiny values.
 std::string digits(float value) {
@@ -37,18 +37,18 @@ std::string name_of(const std::vector<T>& things, int index, const char* kind) {
   return name.empty() ? fmt::format("{} {}", kind, index) : name;
 }
 
-struct Row {
+struct TextRow {
   const char* label;
   std::string value;
 };
 
-std::vector<Row> picture_rows(const DisplayImage& picture, ivec2 pixel) {
+std::vector<TextRow> picture_rows(const DisplayImage& picture, ivec2 pixel) {
   const Frame& frame = *picture.frame;
   const auto index = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(frame.width) +
                      static_cast<std::size_t>(pixel.x);
   const vec3 value = picture.linear()[index];
   const std::uint8_t* shown = picture.rgba.data() + 4 * index;
-  std::vector<Row> rows = {{"pixel", fmt::format("{}, {}", pixel.x, pixel.y)}};
+  std::vector<TextRow> rows = {{"pixel", fmt::format("{}, {}", pixel.x, pixel.y)}};
   if (is_scalar_view(frame.view)) {
     rows.push_back({"value", fmt::format("{} {}", digits(value.x), view_unit(frame.view))});
   } else {
@@ -77,7 +77,7 @@ std::vector<Row> picture_rows(const DisplayImage& picture, ivec2 pixel) {
   return rows;
 }
 
-std::vector<Row> scene_rows(const ViewerState& state, const std::optional<Pick>& pick) {
+std::vector<TextRow> scene_rows(const ViewerState& state, const std::optional<Pick>& pick) {
   if (!pick) return {{"object", "nothing"}};
   const SceneDesc& scene = state.document.scene;
   return {
@@ -89,8 +89,8 @@ std::vector<Row> scene_rows(const ViewerState& state, const std::optional<Pick>&
       {"distance", fmt::format("{}, {} along the view", digits(pick->distance), digits(pick->view_depth))}};
 }
 
-void text_rows(const std::vector<Row>& rows, float column) {
-  for (const Row& row : rows) {
+void text_rows(const std::vector<TextRow>& rows, float column) {
+  for (const TextRow& row : rows) {
     ImGui::TextDisabled("%s", row.label);
     ImGui::SameLine(column);
     ImGui::TextUnformatted(row.value.c_str());
@@ -139,7 +139,7 @@ void probe_overlay(Ui& ui, ViewerState& state, const PixelRect& picture, vec2 to
   ImGui::SetNextWindowSize(ImVec2(348 * unit, 0)); // constant, so that it does not change with the numbers
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * unit);
-  if (ImGui::Begin("##probe", nullptr, kOverlay)) {
+  if (ImGui::Begin("##probe", nullptr, kProbeWindow)) {
     if (!inspect.probe_pixel) {
       ImGui::TextDisabled("Point at the picture; H holds a pixel");
     } else {
@@ -199,7 +199,7 @@ void legend_overlay(Ui& ui, const ViewerState& state, vec2 bottom_left) {
                           ImVec2(0, 1));
   ImGui::SetNextWindowBgAlpha(0.85f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6 * unit);
-  if (ImGui::Begin("##legend", nullptr, kOverlay | ImGuiWindowFlags_AlwaysAutoResize)) {
+  if (ImGui::Begin("##legend", nullptr, kProbeWindow | ImGuiWindowFlags_AlwaysAutoResize)) {
     const std::string_view unit_name = view_unit(state.picture->frame->view);
     ImGui::TextUnformatted(view_name(state.picture->frame->view).c_str());
     if (!unit_name.empty()) {

@@ -11,7 +11,7 @@ namespace {
 
 // Limits of the history: a step of a small scene takes kilobytes, one of ten thousand instances megabytes.
 constexpr std::size_t kMaxSteps = 500;
-constexpr std::size_t kMaxBytes = std::size_t{128} << 20;
+constexpr std::size_t kMaxHistoryBytes = std::size_t{128} << 20;
 /// Scenes whose meshes the history keeps alive: the open one and the previous one.
 constexpr std::size_t kMaxScenes = 2;
 
@@ -69,10 +69,6 @@ std::string list_edit(const std::vector<T>& a, const std::vector<T>& b, const ch
   return what.empty() ? name : fmt::format("{}: {}", name, what);
 }
 
-std::string joined(const std::vector<std::string_view>& keys) {
-  return fmt::format("{}", fmt::join(keys, ", "));
-}
-
 std::string material_edit(const Material& a, const Material& b) {
   if (a.model.index() != b.model.index()) return std::string(material_type_field().key);
   std::vector<std::string_view> keys;
@@ -82,7 +78,7 @@ std::string material_edit(const Material& a, const Material& b) {
                                                : field_equal(row, row.address(x), row.address(y));
     if (!same) keys.push_back(row.key);
   }
-  return joined(keys);
+  return fmt::format("{}", fmt::join(keys, ", "));
 }
 
 std::string instance_edit(const Instance& a, const Instance& b) {
@@ -94,7 +90,7 @@ std::string instance_edit(const Instance& a, const Instance& b) {
   if (a.materials != b.materials) return "material";
   if (a.shape.index() != b.shape.index()) return "shape";
   if (a.motion != b.motion) return "motion";
-  return joined(changed_keys(shape_fields(a.shape), a.shape, b.shape));
+  return fmt::format("{}", fmt::join(changed_keys(shape_fields(a.shape), a.shape, b.shape), ", "));
 }
 
 } // namespace
@@ -114,7 +110,7 @@ std::string edit_name(const EditState& before, const EditState& after) {
   add(list_edit(a.materials, b.materials, "Material", "materials", material_edit));
   add(list_edit(a.lights, b.lights, "Light", "lights", [](const LightDesc& x, const LightDesc& y) {
     if (light_type(x) != light_type(y)) return std::string("type");
-    return joined(changed_keys(light_fields(x), x, y));
+    return fmt::format("{}", fmt::join(changed_keys(light_fields(x), x, y), ", "));
   }));
   if (a.light_groups != b.light_groups) add("Light groups");
   add(list_edit(a.bookmarks, b.bookmarks, "Bookmark", "bookmarks",
@@ -181,7 +177,7 @@ void EditHistory::trim() {
     const Entry& entry = entries_[entries_.size() - 1 - kept];
     bytes += entry.bytes;
     scenes.insert(entry.state.scene.get());
-    if (kept > 0 && (kept == kMaxSteps || bytes > kMaxBytes || scenes.size() > kMaxScenes)) break;
+    if (kept > 0 && (kept == kMaxSteps || bytes > kMaxHistoryBytes || scenes.size() > kMaxScenes)) break;
     ++kept;
   }
   const std::size_t dropped = entries_.size() - kept;

@@ -1,5 +1,8 @@
 #include "app/tools/gizmo.h"
 
+#include "app/ui/imgui_vec.h"
+#include "core/segment.h"
+
 #include <imgui.h>
 
 #include <vector>
@@ -9,17 +12,15 @@ namespace candela {
 namespace {
 
 // Lengths here are in pixels at scale 1.
-constexpr float kLength = 84;    // of an axis, and radius of the rings
-constexpr float kViewRing = 102; // radius of the ring about the view direction
-constexpr float kMiddle = 9;     // half the side of the middle handle
-constexpr float kReach = 7;      // distance from a handle at which the mouse still hits it
+constexpr float kLength = 84;      // of an axis, and radius of the rings
+constexpr float kViewRing = 102;   // radius of the ring about the view direction
+constexpr float kMiddleHandle = 9; // half the side of the middle handle
+constexpr float kReach = 7;        // distance from a handle at which the mouse still hits it
 constexpr float kThickness = 2.2f;
 constexpr int kRingSegments = 48;
 constexpr float kAngleStep = radians(15.0f), kScaleStep = 0.1f, kSmallestScale = 1e-3f;
 
 constexpr GizmoHandle kHandles[] = {GizmoHandle::view, GizmoHandle::x, GizmoHandle::y, GizmoHandle::z};
-
-ImVec2 im(vec2 v) { return {v.x, v.y}; }
 
 ImU32 color_of(GizmoHandle handle, bool highlighted) {
   if (highlighted) return IM_COL32(255, 222, 130, 255);
@@ -30,13 +31,6 @@ ImU32 color_of(GizmoHandle handle, bool highlighted) {
   case GizmoHandle::view: break;
   }
   return IM_COL32(225, 225, 225, 235);
-}
-
-float distance_to_segment(vec2 p, vec2 a, vec2 b) {
-  const vec2 ab = b - a;
-  const float length = glm::dot(ab, ab);
-  const float t = length > 0 ? std::clamp(glm::dot(p - a, ab) / length, 0.0f, 1.0f) : 0.0f;
-  return glm::length(p - (a + t * ab));
 }
 
 /// The direction of a handle; that of the middle one points to the viewer.
@@ -63,10 +57,10 @@ std::vector<vec2> outline(const Gizmo& gizmo, GizmoHandle handle, const ScreenPr
   } else if (handle == GizmoHandle::view) {
     if (const auto middle = screen.point(gizmo.pivot))
       for (vec2 corner : {vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1), vec2(-1, -1)})
-        line.push_back(*middle + kMiddle * gizmo.scale * corner);
+        line.push_back(*middle + kMiddleHandle * gizmo.scale * corner);
   } else {
     const vec3 axis = axis_of(gizmo, handle, screen);
-    add(gizmo.pivot + 1.6f * kMiddle * unit * axis); // leaves room for the middle handle
+    add(gizmo.pivot + 1.6f * kMiddleHandle * unit * axis); // leaves room for the middle handle
     add(gizmo.pivot + kLength * unit * axis);
   }
   return line;
@@ -88,7 +82,7 @@ std::optional<GizmoHandle> Gizmo::hit(const ScreenProjection& screen, vec2 mouse
     }
   }
   const vec2 from_middle = glm::abs(mouse - *screen.point(pivot));
-  if (tool != Tool::rotate && std::max(from_middle.x, from_middle.y) <= kMiddle * scale)
+  if (tool != Tool::rotate && std::max(from_middle.x, from_middle.y) <= kMiddleHandle * scale)
     return GizmoHandle::view;
   return found;
 }

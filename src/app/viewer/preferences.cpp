@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kMaxBytes = 1 << 20;
+constexpr std::size_t kMaxPreferencesBytes = 1 << 20;
 constexpr std::size_t kMaxRecent = 10, kMaxSections = 500, kMaxPath = 4096;
 
 /// Deep nesting is refused: the parser recurses when the value is destroyed.
@@ -112,7 +112,7 @@ Preferences read_preferences(const fs::path& path, std::string& warning) {
   std::error_code failed;
   if (!fs::exists(path, failed)) return {};
   try {
-    const std::string text = read_text_file(path.string(), "preferences", kMaxBytes);
+    const std::string text = read_text_file(path.string(), "preferences", kMaxPreferencesBytes);
     auto not_too_deep = [](int depth, json::parse_event_t, json&) {
       if (depth > kMaxDepth) throw std::length_error("nested too deeply");
       return true;

@@ -1,5 +1,6 @@
 #include "app/viewer/texture_viewer.h"
 
+#include "app/ui/pane.h"
 #include "app/ui/ui_style.h"
 
 #include <fmt/format.h>
@@ -21,18 +22,6 @@ constexpr std::size_t kMostEdges = 20000; // of a UV layout
 constexpr std::string_view kChannels[] = {"RGB", "R", "G", "B", "A"};
 constexpr std::string_view kResolutions[] = {"256", "512", "1024", "2048", "4096"};
 constexpr float kStops = 16;
-
-ImVec2 im(vec2 v) { return {v.x, v.y}; }
-
-bool begin_part(const char* name, vec2 position, vec2 size, ImGuiWindowFlags flags) {
-  ImGui::SetNextWindowPos(im(position));
-  ImGui::SetNextWindowSize(im(glm::max(size, 1.0f)));
-  return ImGui::Begin(name, nullptr,
-                      flags | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                          ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing |
-                          ImGuiWindowFlags_NoBringToFrontOnFocus);
-}
 
 std::string numbers(vec4 v, int count, const char* format) {
   std::string text;
@@ -82,14 +71,14 @@ void TextureViewer::draw(Ui& ui, ViewerState& state, vec2 position, vec2 room) {
   shown_ = true;
 
   const float column = std::min(kColumn * ui.scale(), 0.5f * room.x);
-  if (begin_part("##texture_view", position, vec2(column, room.y), ImGuiWindowFlags_None)) {
+  if (begin_pane("##texture_view", position, vec2(column, room.y), ImGuiWindowFlags_None)) {
     controls(ui, state, users);
     facts(ui, state, users);
   }
   ImGui::End();
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(kBackgroundGrey, kBackgroundGrey, kBackgroundGrey, 1));
-  if (begin_part("##texture_canvas", position + vec2(column, 0), vec2(room.x - column, room.y),
+  if (begin_pane("##texture_canvas", position + vec2(column, 0), vec2(room.x - column, room.y),
                  ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
     canvas(ui, state, user);
   ImGui::End();

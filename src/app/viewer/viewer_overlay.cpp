@@ -1,5 +1,6 @@
 // Overlays of the picture: the selection's box, lights, the gizmo, the region.
 
+#include "app/ui/imgui_vec.h"
 #include "app/viewer/viewer.h"
 
 #include <imgui.h>
@@ -11,8 +12,6 @@ namespace {
 constexpr float kLightRadius = 8; // of an icon, at scale 1
 constexpr ImU32 kSelected = IM_COL32(255, 170, 60, 255), kLightColor = IM_COL32(245, 235, 200, 235),
                 kShadow = IM_COL32(0, 0, 0, 120), kRegionColor = IM_COL32(230, 90, 70, 255);
-
-ImVec2 im(vec2 v) { return {v.x, v.y}; }
 
 void shadowed_line(ImDrawList& list, vec2 a, vec2 b, ImU32 color, float width) {
   list.AddLine(im(a), im(b), kShadow, width + 2);

@@ -15,13 +15,13 @@ namespace {
 
 constexpr float kSpeedStep = 1.2f; // a notch of the wheel
 constexpr float kMinSpeed = 0.01f, kMaxSpeed = 100;
-constexpr float kZoomStep = 0.85f;      // a notch of the wheel
+constexpr float kWheelZoom = 0.85f;     // a notch of the wheel
 constexpr float kZoomPerPixel = 1.005f; // of a drag, at scale 1
 constexpr float kClickSlack = 4;        // pixels at scale 1 that a click may move
 constexpr double kWheelGesture = 0.5;   // seconds within which turns of the wheel are one edit
 constexpr float kNearestZoom = 1e-4f;   // of the distance flown in a second at natural_speed
 
-constexpr int kLeft = 0, kMiddle = 2; // of ImGui's buttons
+constexpr int kLeftButton = 0, kMiddleButton = 2; // of ImGui's buttons
 
 } // namespace
 
@@ -53,7 +53,7 @@ void Viewer::use_mouse_on_picture() {
   if (!io.WantCaptureMouse && io.MouseWheel != 0) turn_wheel(io.MouseWheel);
   const vec2 mouse(io.MousePos.x, io.MousePos.y);
   if (gesture_ == Gesture::none && !io.WantCaptureMouse)
-    for (int button : {kLeft, kMiddle})
+    for (int button : {kLeftButton, kMiddleButton})
       if (io.MouseClicked[button] && gesture_ == Gesture::none) begin_gesture(button, mouse);
   if (gesture_ == Gesture::none) return;
   if (glm::length(mouse - press_position_) > kClickSlack * state_.scale) dragged_ = true;
@@ -74,8 +74,8 @@ void Viewer::use_mouse_on_picture() {
 
 void Viewer::begin_gesture(int button, vec2 mouse) {
   const ImGuiIO& io = ImGui::GetIO();
-  const bool around = button == kMiddle || io.KeyAlt; // Alt replaces a missing middle button
-  if (button == kLeft && state_.region_armed)
+  const bool around = button == kMiddleButton || io.KeyAlt; // Alt replaces a missing middle button
+  if (button == kLeftButton && state_.region_armed)
     gesture_ = Gesture::region;
   else if (!around && begin_gizmo_drag(mouse))
     gesture_ = Gesture::gizmo;
@@ -127,7 +127,7 @@ void Viewer::zoom(float factor) {
 /// Zooms; during flight or mouse look it sets the speed of flight instead, as in game editors.
 void Viewer::turn_wheel(float notches) {
   if (!fly_command().any() && gesture_ != Gesture::look) {
-    if (camera_problem(state_.document.scene.camera).empty()) zoom(std::pow(kZoomStep, notches));
+    if (camera_problem(state_.document.scene.camera).empty()) zoom(std::pow(kWheelZoom, notches));
     wheel_until_ = now_ + kWheelGesture;
     return;
   }

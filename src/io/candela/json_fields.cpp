@@ -21,7 +21,7 @@ std::string_view type_name(JsonType type) {
   return "";
 }
 
-std::string shortened(std::string_view token) {
+std::string shortened_token(std::string_view token) {
   constexpr std::size_t kLongest = 60;
   return std::string(token.size() > kLongest ? token.substr(0, kLongest) : token);
 }
@@ -75,7 +75,7 @@ void read_field(const FieldInfo& field, void* address, JsonValue value, std::str
   try {
     field_from_text(field, address, *text);
   } catch (const Error&) { // a usage error without a location
-    throw refuse(fmt::format("'{}' does not fit", shortened(*text)));
+    throw refuse(fmt::format("'{}' does not fit", shortened_token(*text)));
   }
 }
 
@@ -113,7 +113,7 @@ double read_double(JsonValue value, std::string_view element) {
   if ((status == std::errc() || tiny) &&
       std::abs(out) <= static_cast<double>(std::numeric_limits<float>::max()))
     return out;
-  throw input_error(value.where(), element, fmt::format("{} is too large", shortened(token)),
+  throw input_error(value.where(), element, fmt::format("{} is too large", shortened_token(token)),
                     "give a number below 3.4e38");
 }
 
@@ -134,7 +134,7 @@ int read_integer(JsonValue value, std::string_view element, int minimum, int max
   bool whole =
       value.type() == JsonType::number && status == std::errc() && end == token.data() + token.size();
   if (!whole || out < minimum || out > maximum)
-    throw input_error(value.where(), element, fmt::format("'{}' does not fit", shortened(token)),
+    throw input_error(value.where(), element, fmt::format("'{}' does not fit", shortened_token(token)),
                       fmt::format("give an integer from {} to {}", minimum, maximum));
   return out;
 }
@@ -178,7 +178,7 @@ vec3 read_vec3(JsonValue value, std::string_view element) {
 
 Error unknown_key(JsonValue key, std::string_view element, std::span<const std::string_view> known) {
   std::string near = nearest_name(key.string(), known);
-  return input_error(key.where(), element, fmt::format("there is no key '{}'", shortened(key.string())),
+  return input_error(key.where(), element, fmt::format("there is no key '{}'", shortened_token(key.string())),
                      near.empty() ? fmt::format("the keys are {}", fmt::join(known, ", "))
                                   : fmt::format("did you mean '{}'?", near));
 }

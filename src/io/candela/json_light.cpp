@@ -144,7 +144,8 @@ LightDesc read_json_light(JsonValue object, const std::string& element, SceneBui
       light = default_light(type);
     }
   std::vector<std::string_view> known = keys_of(light_fields(light), {"name", "type", "group"});
-  if (takes_panorama(light)) known.insert(known.end(), {"file", "image"});
+  if (takes_panorama(light))
+    for (const char* key : {"file", "image"}) known.emplace_back(key);
   if (std::holds_alternative<EnvironmentLightModel>(light.model)) known.emplace_back("files");
   if (takes_profile(light)) known.emplace_back("profile");
   LightFiles files(light, element, builder, folder);

@@ -19,7 +19,7 @@ using glm::dmat4;
 using glm::dvec3;
 
 constexpr std::size_t kMaxXmlBytes = std::size_t{64} << 20;
-constexpr int kMaxDepth = 64;
+constexpr int kMaxTreeDepth = 64;
 constexpr std::size_t kMaxInstances = 1'000'000;
 /// Share of the reading time that parsing takes.
 constexpr double kSyntaxShare = 0.5;
@@ -99,7 +99,7 @@ private:
 
   /// Announces the files that will be read, for the progress.
   void expect_files(pugi::xml_node node, int depth) {
-    if (depth > 3 * kMaxDepth) return; // reported later
+    if (depth > 3 * kMaxTreeDepth) return; // reported later
     progress_.check();
     for (const char* key : {"filename", "file"})
       if (auto name = node.attribute(key)) builder_.expect_file(name.value(), folder_);
@@ -182,9 +182,9 @@ private:
   }
 
   void tree(pugi::xml_node object, const dmat4& world_from_tree, int depth) {
-    if (depth > kMaxDepth)
+    if (depth > kMaxTreeDepth)
       throw limit_error(places_.element(object), "object",
-                        fmt::format("more than {} levels of trees", kMaxDepth), "flatten the scene");
+                        fmt::format("more than {} levels of trees", kMaxTreeDepth), "flatten the scene");
     for (pugi::xml_node part : object.children()) {
       if (part.type() != pugi::node_element) continue;
       if (std::string_view(part.name()) == "transblock")

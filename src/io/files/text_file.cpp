@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 /// Bytes processed between two checks for cancellation.
-constexpr std::size_t kStride = std::size_t{16} << 20;
+constexpr std::size_t kChunk = std::size_t{16} << 20;
 
 /// Calls work(begin, end) for the pieces of [0, size).
 template <class Work>
 void in_pieces(std::size_t size, const WarningList* warnings, Work work) {
-  for (std::size_t begin = 0; begin < size; begin += kStride) {
+  for (std::size_t begin = 0; begin < size; begin += kChunk) {
     if (warnings) warnings->check_stop();
-    work(begin, std::min(begin + kStride, size));
+    work(begin, std::min(begin + kChunk, size));
   }
 }
 

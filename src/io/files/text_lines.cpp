@@ -8,9 +8,9 @@ namespace candela {
 namespace {
 
 /// Bytes searched between two checks for cancellation.
-constexpr std::size_t kStride = std::size_t{16} << 20;
+constexpr std::size_t kPiece = std::size_t{16} << 20;
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
+bool is_space(char c) { return c == ' ' || c == '\t'; }
 
 } // namespace
 
@@ -19,9 +19,9 @@ TextLines::TextLines(std::string& text, ProgressPart& progress, double share)
 
 /// Position of the first `c` in [from, limit), or `limit`.
 std::size_t TextLines::find(char c, std::size_t from, std::size_t limit) const {
-  for (std::size_t begin = from; begin < limit; begin += kStride) {
+  for (std::size_t begin = from; begin < limit; begin += kPiece) {
     progress_.check();
-    const std::size_t length = std::min(kStride, limit - begin);
+    const std::size_t length = std::min(kPiece, limit - begin);
     if (const void* found = std::memchr(text_.data() + begin, c, length))
       return static_cast<std::size_t>(static_cast<const char*>(found) - text_.data());
   }
@@ -47,7 +47,7 @@ bool TextLines::next() {
     next_ = std::min(end + 1, text_.size());
     if (end < text_.size() && text_[end] == '\r' && next_ < text_.size() && text_[next_] == '\n') ++next_;
     std::size_t last = end;
-    while (last > from && is_blank(text_[last - 1])) --last;
+    while (last > from && is_space(text_[last - 1])) --last;
     const bool continued = last > from && text_[last - 1] == '\\' && next_ < text_.size();
     if (!continued) break;
     std::fill(text_.begin() + static_cast<std::ptrdiff_t>(last - 1),

@@ -83,7 +83,7 @@ Bytes with_png_text(Bytes png, const ImageMetadata& text) {
     append_big_endian(png, static_cast<std::uint32_t>(chunk.size() - 4));
     png.insert(png.end(), chunk.begin(), chunk.end());
     append_big_endian(png,
-                      static_cast<std::uint32_t>(crc32(0, chunk.data(), static_cast<uInt>(chunk.size()))));
+                      static_cast<std::uint32_t>(::crc32(0, chunk.data(), static_cast<uInt>(chunk.size()))));
   }
   png.insert(png.end(), end.begin(), end.end());
   return png;

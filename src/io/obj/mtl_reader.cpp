@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMaxMtlBytes = std::size_t{64} << 20;
 /// Share of the reading time that parsing lines takes.
-constexpr double kLinesShare = 0.5;
+constexpr double kMtlLinesShare = 0.5;
 
 /// A row of any material type.
 FieldInfo material_row(std::string_view key) {
@@ -154,12 +154,12 @@ void read_mtl(const FoundFile& file, const PathPolicy& policy, MtlDialect dialec
     return warnings.add({file.shown}, fmt::format("the material library is left out: {}", problem.what()));
   }
   ProgressPart progress = warnings.part(file.canonical, text.size());
-  TextLines lines(text, progress, kLinesShare);
+  TextLines lines(text, progress, kMtlLinesShare);
   const std::vector<MtlStatements> materials = parse_mtl(lines, file.shown, warnings);
   const std::string folder = folder_of(file.shown);
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    progress.reach(kLinesShare +
-                   (1 - kLinesShare) * static_cast<double>(i) / static_cast<double>(materials.size()));
+    progress.reach(kMtlLinesShare +
+                   (1 - kMtlLinesShare) * static_cast<double>(i) / static_cast<double>(materials.size()));
     const MtlStatements& said = materials[i];
     if (library.contains(said.name)) {
       warnings.add(said.where, "a material of this name is there already: the first one counts");

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxObjBytes = 0x7fffffff;
 /// Share of the reading time that parsing lines takes; the rest converts them to vertices and triangles.
-constexpr double kLinesShare = 0.7;
+constexpr double kObjLinesShare = 0.7;
 
 /// The material libraries that an OBJ names.
 class Libraries {
@@ -78,7 +78,7 @@ ObjModel read_obj(const FoundFile& file, const PathPolicy& policy, MtlDialect di
   ProgressPart progress = warnings.part(file.canonical, text.size());
   ObjParser parser(file.shown, warnings);
   parser.on_mtllib = [&](std::string_view names, const Location& where) { libraries.read(names, where); };
-  TextLines lines(text, progress, kLinesShare);
+  TextLines lines(text, progress, kObjLinesShare);
   while (lines.next()) parser.line(lines.line(), lines.number());
   std::string().swap(text); // the largest allocation here
   ObjContents& contents = parser.contents;
@@ -89,7 +89,7 @@ ObjModel read_obj(const FoundFile& file, const PathPolicy& policy, MtlDialect di
     libraries.read_namesake();
 
   ObjModel model;
-  model.mesh = obj_mesh(contents, file.shown, warnings, progress, kLinesShare);
+  model.mesh = obj_mesh(contents, file.shown, warnings, progress, kObjLinesShare);
   Mesh& mesh = model.mesh;
   mesh.name = utf8_name(std::filesystem::path(file.shown).stem().string());
   mesh.source = file.canonical;

@@ -23,9 +23,9 @@ PixelBox clip(const CropWindow& window, const Film& film) {
 }
 
 /// The frame's grid of tiles, as far as it lies in a window: it does not depend on the window.
-class TileGrid {
+class RenderTiles {
 public:
-  explicit TileGrid(const PixelBox& window)
+  explicit RenderTiles(const PixelBox& window)
       : window_(window), column_(window.x0 / kTileSize), row_(window.y0 / kTileSize),
         columns_(std::max((window.x1 + kTileSize - 1) / kTileSize - column_, 0)),
         rows_(std::max((window.y1 + kTileSize - 1) / kTileSize - row_, 0)) {}
@@ -52,7 +52,7 @@ void render_tile(SampleQueue& queue, const PixelBox& tile, const PassJob& job, P
 } // namespace
 
 PassResult CpuPassRenderer::render(const PassJob& job, const PassFilms& films, const StopCondition& stop) {
-  const TileGrid tiles(clip(job.window, films.image));
+  const RenderTiles tiles(clip(job.window, films.image));
   std::vector<PassResult> results(static_cast<std::size_t>(tiles.size()));
   const int threads = threads_ > 0 ? threads_ : omp_get_num_procs();
   bool stopped = false;

@@ -13,12 +13,12 @@
 namespace candela {
 namespace {
 
-struct Outcome {
+struct LabOutcome {
   int code = -1;
   std::string out, err;
 };
 
-Outcome lab(const std::string& arguments) {
+LabOutcome lab(const std::string& arguments) {
   test::ScratchFolder scratch;
   const std::string out = scratch / "out.txt", err = scratch / "err.txt";
   const int status =
@@ -27,20 +27,20 @@ Outcome lab(const std::string& arguments) {
 }
 
 nlohmann::json lab_json(const std::string& arguments) {
-  const Outcome o = lab(arguments + " --json");
+  const LabOutcome o = lab(arguments + " --json");
   EXPECT_EQ(o.code, 0) << o.err;
   return nlohmann::json::parse(o.out);
 }
 
 TEST(LabCommand, EveryLessonSaysWhatToLookAtAndGivesJson) {
   for (const LessonInfo& info : lessons()) {
-    const Outcome text = lab(fmt::format("{} --samples 100", info.name));
+    const LabOutcome text = lab(fmt::format("{} --samples 100", info.name));
     EXPECT_EQ(text.code, 0) << text.err;
     if (info.name != "points") { // CSV
       EXPECT_NE(text.out.find(info.look_at), std::string::npos) << text.out;
     }
     EXPECT_EQ(lab_json(fmt::format("{} --samples 100", info.name))["lesson"], info.name);
-    const Outcome help = lab(fmt::format("{} --help", info.name));
+    const LabOutcome help = lab(fmt::format("{} --help", info.name));
     EXPECT_EQ(help.code, 0);
     EXPECT_NE(help.out.find("--sampler"), std::string::npos) << help.out;
   }
@@ -54,7 +54,7 @@ TEST(LabCommand, PiCountsAMillionPointsByDefault) {
   EXPECT_DOUBLE_EQ(j["error"], j["estimate"].get<double>() - j["expected"].get<double>());
   EXPECT_NEAR(j["error"], 0, 0.001); // Sobol' points, and the seed is fixed
   EXPECT_EQ(j["trace"].back()["n"], 1000000);
-  const Outcome text = lab("pi");
+  const LabOutcome text = lab("pi");
   EXPECT_NE(text.out.find(fmt::format("hits                {}", j["hits"].get<int>())), std::string::npos)
       << text.out;
   EXPECT_NE(text.err.find("1000000 samples"), std::string::npos) << text.err;
@@ -83,7 +83,7 @@ TEST(LabCommand, EverySamplerOfTheTableIsOffered) {
     EXPECT_EQ(lab_json(fmt::format("pi --samples 64 --sampler {}", sampler))["sampler"], sampler);
     header += fmt::format(",{}", sampler);
   }
-  const Outcome curves = lab("points --curve --samples 32");
+  const LabOutcome curves = lab("points --curve --samples 32");
   ASSERT_EQ(curves.code, 0) << curves.err;
   EXPECT_EQ(curves.out.substr(0, curves.out.find('\n')), header);
   EXPECT_EQ(std::ranges::count(curves.out, '\n'), 7); // the header, and 1 to 32 points
@@ -91,7 +91,7 @@ TEST(LabCommand, EverySamplerOfTheTableIsOffered) {
 }
 
 TEST(LabCommand, PointsAreCsv) {
-  const Outcome o = lab("points --samples 8 --x film.y --y bsdf_direction.x@2 --pixel-x 3");
+  const LabOutcome o = lab("points --samples 8 --x film.y --y bsdf_direction.x@2 --pixel-x 3");
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_TRUE(o.out.starts_with("film.y,bsdf_direction.x@2\n")) << o.out;
   EXPECT_EQ(std::ranges::count(o.out, '\n'), 9);
@@ -127,7 +127,7 @@ TEST(LabCommand, BadArgumentsAreUsageErrorsWithARemedy) {
         Case{"points --samples 100000", "65536"}, Case{"warps --cone-angle 181", "from 0.1 to 180"},
         Case{"brdf --roughness 2", "from 0 to 1"}, Case{"brdf --theta 90", "89.9"},
         Case{"brdf --material velvet", "one of diffuse"}}) {
-    const Outcome o = lab(c.arguments);
+    const LabOutcome o = lab(c.arguments);
     EXPECT_EQ(o.code, 2) << c.arguments << "\n" << o.err;
     EXPECT_NE(o.err.find(c.remedy), std::string::npos) << c.arguments << "\n" << o.err;
     EXPECT_EQ(o.out, "") << c.arguments;

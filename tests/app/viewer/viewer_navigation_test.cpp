@@ -6,7 +6,7 @@
 namespace candela::test {
 namespace {
 
-vec3 forward_of(const Camera& c) { return glm::normalize(c.target - c.position); }
+vec3 view_of(const Camera& c) { return glm::normalize(c.target - c.position); }
 
 void drag_with(ViewerHarness& hand, MouseButton button, vec2 from, vec2 to) {
   hand.pause();
@@ -31,7 +31,7 @@ TEST(ViewerNavigationUi, TheMiddleButtonOrbitsPansAndZooms) {
   drag_with(hand, MouseButton::middle, {300, 300}, {350, 300});
   hand.key_up(Key::left_shift);
   const Camera panned = hand.document().scene.camera;
-  EXPECT_LT(glm::length(forward_of(panned) - forward_of(orbited)), 1e-5f);
+  EXPECT_LT(glm::length(view_of(panned) - view_of(orbited)), 1e-5f);
   const float unit =
       2 * std::tan(0.5f * before.vertical_fov) * 3.6f / static_cast<float>(hand.viewer.picture_rect().height);
   EXPECT_NEAR(glm::length(panned.position - orbited.position), 50 * unit, 1e-3f);
@@ -80,14 +80,14 @@ TEST(ViewerNavigationUi, TheWheelZooms) {
 TEST(ViewerNavigationUi, TheNumberPadLooksAlongTheAxes) {
   ViewerHarness hand;
   hand.key(Key::keypad_3);
-  EXPECT_LT(glm::length(forward_of(hand.document().scene.camera) - vec3(-1, 0, 0)), 1e-3f);
+  EXPECT_LT(glm::length(view_of(hand.document().scene.camera) - vec3(-1, 0, 0)), 1e-3f);
   hand.key(Key::keypad_7);
-  EXPECT_LT(glm::length(forward_of(hand.document().scene.camera) - vec3(0, -1, 0)), 2e-3f);
+  EXPECT_LT(glm::length(view_of(hand.document().scene.camera) - vec3(0, -1, 0)), 2e-3f);
   hand.control(Key::keypad_1);
-  EXPECT_LT(glm::length(forward_of(hand.document().scene.camera) - vec3(0, 0, 1)), 1e-3f);
+  EXPECT_LT(glm::length(view_of(hand.document().scene.camera) - vec3(0, 0, 1)), 1e-3f);
   hand.unfold("panel.camera", "camera.front");
   hand.click("camera.front");
-  EXPECT_LT(glm::length(forward_of(hand.document().scene.camera) - vec3(0, 0, -1)), 1e-3f);
+  EXPECT_LT(glm::length(view_of(hand.document().scene.camera) - vec3(0, 0, -1)), 1e-3f);
   hand.key(Key::keypad_5);
   EXPECT_EQ(hand.document().scene.camera.projection, Projection::orthographic);
   hand.key(Key::keypad_5);

@@ -38,7 +38,7 @@ public:
       // With AddressSanitizer: leaks of the X and GL libraries cannot be distinguished from ours, since the
       // libraries are unloaded by then. The other tests check the same code for leaks.
       setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
-      const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+      const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
       dup2(file, 1);
       dup2(file, 2);
       execvp(arguments[0], arguments.data());

@@ -21,7 +21,7 @@ TEST_P(CandelaJsonErrors, AreLocated) {
   EXPECT_TRUE(test::says(error(e.json), e.start, {e.part}));
 }
 
-const JsonError kErrors[] = {
+const JsonError kJsonErrors[] = {
     {"Empty", "", "s.json:1:1: JSON: ", "unexpected end of input"},
     {"Truncated", "{\"candela\": 1,\n \"lights\": [", "s.json:2:13: JSON: ", "unexpected end of input"},
     {"MissingComma", "{\"candela\": 1\n  \"lights\": []}", "s.json:2:3: JSON: ", "unexpected string literal"},
@@ -259,7 +259,7 @@ const JsonError kErrors[] = {
      "s.json:1:74: instances[0].transform[0].look_at: ", "parallel"},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, CandelaJsonErrors, ::testing::ValuesIn(kErrors),
+INSTANTIATE_TEST_SUITE_P(All, CandelaJsonErrors, ::testing::ValuesIn(kJsonErrors),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_F(CandelaJson, CapsNesting) {

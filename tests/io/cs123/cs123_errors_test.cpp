@@ -18,7 +18,7 @@ TEST_P(Cs123Errors, AreLocated) {
   EXPECT_TRUE(test::says(error(GetParam().xml), GetParam().start, {GetParam().part}));
 }
 #define CANDELA_ROOT(inside) "<object type='tree' name='root'><transblock>" inside "</transblock></object>"
-const XmlError kErrors[] = {
+const XmlError kCs123Errors[] = {
     {"NoRoot", "", "s.xml:1:1: scenefile: ", "no tree named root"},
     {"Syntax", "<object type='tree'", "s.xml:3:1: XML: ", ""},
     {"Unclosed", "<object>", "s.xml:3:3: XML: ", "mismatch"},
@@ -82,7 +82,7 @@ const XmlError kErrors[] = {
      "s.xml:2:84: texture: ", "names no file"},
 };
 #undef CANDELA_ROOT
-INSTANTIATE_TEST_SUITE_P(All, Cs123Errors, ::testing::ValuesIn(kErrors),
+INSTANTIATE_TEST_SUITE_P(All, Cs123Errors, ::testing::ValuesIn(kCs123Errors),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_F(Cs123Reader, OtherXml) {

@@ -161,7 +161,7 @@ class ObjReaderErrors : public ObjReader, public ::testing::WithParamInterface<O
 TEST_P(ObjReaderErrors, AreLocated) {
   EXPECT_TRUE(test::says(error(GetParam().obj), GetParam().start, {GetParam().part}));
 }
-const ObjError kErrors[] = {
+const ObjError kObjErrors[] = {
     {"Empty", "", "x.obj: mesh: ", "no face"},
     {"NoFaces", "v 0 0 0\n", "x.obj: mesh: ", "no face"},
     {"OnlyDegenerate", "v 0 0 0\nf 1 1 1\n", "x.obj: mesh: ", "no face"},
@@ -183,7 +183,7 @@ const ObjError kErrors[] = {
     {"CornerParts", "v 0 0 0\nvt 0 0\nvn 0 0 1\nf 1/1/1/1 1 1\n", "x.obj:4:3: f: ", "too many parts"},
     {"CornerNoPosition", "v 0 0 0\nvt 0 0\nf /1 1 1\n", "x.obj:3:3: f: ", "is no corner"},
 };
-INSTANTIATE_TEST_SUITE_P(All, ObjReaderErrors, ::testing::ValuesIn(kErrors),
+INSTANTIATE_TEST_SUITE_P(All, ObjReaderErrors, ::testing::ValuesIn(kObjErrors),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_F(ObjReader, Caps) {

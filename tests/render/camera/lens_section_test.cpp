@@ -6,14 +6,14 @@
 namespace candela::test {
 namespace {
 
-LensSystem lens_of(std::string_view key, float f_stop = 0, float focus = kInfinity) {
+LensSystem lens_named(std::string_view key, float f_stop = 0, float focus = kInfinity) {
   const LensPrescription& lens = *find_lens(key);
   return LensSystem(lens.interfaces, {lens.focal_length, f_stop, focus, 17.5f, 0, 0});
 }
 
 TEST(LensSection, HasAnOutlineForEachGlass) {
   // The double Gauss has six elements in four groups: two pairs are cemented.
-  const LensSection section = lens_section(lens_of("double_gauss"));
+  const LensSection section = lens_section(lens_named("double_gauss"));
   EXPECT_EQ(section.elements.size(), 6u);
   for (const auto& outline : section.elements) EXPECT_EQ(outline.front(), outline.back());
   EXPECT_GT(section.stop_rim, section.stop_radius);
@@ -21,12 +21,12 @@ TEST(LensSection, HasAnOutlineForEachGlass) {
 }
 
 TEST(LensSection, StopClosesWithTheFNumber) {
-  const float wide = lens_section(lens_of("double_gauss", 2.8f)).stop_radius;
-  EXPECT_NEAR(lens_section(lens_of("double_gauss", 5.6f)).stop_radius, 0.5f * wide, 1e-4f * wide);
+  const float wide = lens_section(lens_named("double_gauss", 2.8f)).stop_radius;
+  EXPECT_NEAR(lens_section(lens_named("double_gauss", 5.6f)).stop_radius, 0.5f * wide, 1e-4f * wide);
 }
 
 TEST(LensSection, PathsPassWhereTheLensTraces) {
-  const LensSystem lens = lens_of("double_gauss", 4);
+  const LensSystem lens = lens_named("double_gauss", 4);
   const auto paths = lens_paths(lens, 5, 41, 30);
   ASSERT_EQ(paths.size(), 41u);
   int passing = 0;
@@ -48,7 +48,7 @@ TEST(LensSection, PathsPassWhereTheLensTraces) {
 }
 
 TEST(LensSection, PathAlongTheAxisIsStraight) {
-  const LensSystem lens = lens_of("wide_angle");
+  const LensSystem lens = lens_named("wide_angle");
   const auto paths = lens_paths(lens, 0, 1, 10);
   ASSERT_TRUE(paths[0].passes);
   for (vec2 p : paths[0].points) EXPECT_NEAR(p.y, 0, 1e-5f);
@@ -56,7 +56,7 @@ TEST(LensSection, PathAlongTheAxisIsStraight) {
 
 TEST(LensBlur, IsThatOfAThinLensWhereTheLensIsStoppedDown) {
   // Far from the lens, where it does not matter from which of its planes one measures.
-  const LensSystem lens = lens_of("double_gauss", 11, 5000);
+  const LensSystem lens = lens_named("double_gauss", 11, 5000);
   for (float distance : {2000.0f, 3000.0f, 10000.0f, 50000.0f}) {
     const float thin = thin_lens_blur(lens, distance);
     EXPECT_NEAR(lens_blur(lens, distance), thin, 0.04f * thin + 2e-4f) << distance;
@@ -66,9 +66,9 @@ TEST(LensBlur, IsThatOfAThinLensWhereTheLensIsStoppedDown) {
 
 TEST(LensBlur, OfAThinLensIsTheTextbooksFormula) {
   // A 50 mm lens at f/11 focused at 5 m, a point at 3 m: A |d - s| / d times the magnification f / (s - f).
-  const LensSystem lens = lens_of("double_gauss", 11, 5000);
+  const LensSystem lens = lens_named("double_gauss", 11, 5000);
   EXPECT_NEAR(thin_lens_blur(lens, 3000), 50.0f / 11 * (2000.0f / 3000) * (50.0f / 4950), 2e-5f);
-  const LensSystem infinite = lens_of("double_gauss", 11);
+  const LensSystem infinite = lens_named("double_gauss", 11);
   EXPECT_NEAR(thin_lens_blur(infinite, 3000), 50.0f * 50 / 11 / 3000, 1e-4f);
 }
 

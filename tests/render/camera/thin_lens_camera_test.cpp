@@ -9,7 +9,7 @@
 namespace candela::test {
 namespace {
 
-Ray ray_of(const CameraModel& camera, vec2 film, vec2 u_lens) {
+Ray lens_ray(const CameraModel& camera, vec2 film, vec2 u_lens) {
   const auto ray = camera.ray(film, u_lens);
   EXPECT_TRUE(ray && ray->weight == 1);
   return ray ? ray->ray : Ray{};
@@ -132,8 +132,8 @@ TEST(ThinLensCamera, PinholeSpansTheFieldOfView) {
   c.vertical_fov = radians(60.0f);
   const ThinLensCamera rays(c, 200, 100);
   EXPECT_FALSE(rays.uses_lens_sample());
-  EXPECT_NEAR(glm::length(ray_of(rays, {100, 50}, {}).direction - vec3(0, 0, -1)), 0, 1e-6f);
-  vec3 top = ray_of(rays, {100, 0}, {}).direction, left = ray_of(rays, {0, 50}, {}).direction;
+  EXPECT_NEAR(glm::length(lens_ray(rays, {100, 50}, {}).direction - vec3(0, 0, -1)), 0, 1e-6f);
+  vec3 top = lens_ray(rays, {100, 0}, {}).direction, left = lens_ray(rays, {0, 50}, {}).direction;
   EXPECT_NEAR(std::atan2(top.y, -top.z), radians(30.0f), 1e-6f);
   EXPECT_LT(left.x, 0);
   EXPECT_NEAR(-left.x / -left.z, 2 * std::tan(radians(30.0f)), 1e-5f); // square pixels
@@ -154,7 +154,7 @@ TEST(ThinLensCamera, LensIsSharpInTheFocusPlaneAndBlursByTheCircleOfConfusion) {
   for (int i = 0; i < 64; ++i)
     for (int j = 0; j < 64; ++j) {
       vec2 u((static_cast<float>(i) + 0.5f) / 64, (static_cast<float>(j) + 0.5f) / 64), film(20.3f, 41.7f);
-      Ray r = ray_of(rays, film, u), s = ray_of(sharp, film, {});
+      Ray r = lens_ray(rays, film, u), s = lens_ray(sharp, film, {});
       ASSERT_LE(glm::length(r.origin), 0.2f * 1.0001f);
       ASSERT_EQ(r.origin.z, 0);
       ASSERT_LT(glm::length(at_depth(r, 4) - at_depth(s, 4)), 2e-6f);
@@ -181,7 +181,7 @@ TEST(ThinLensCamera, OrthographicRaysAreParallelAndEquallySpaced) {
   const ThinLensCamera rays(camera, 40, 30);
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x) {
-      const Ray ray = ray_of(rays, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, vec2(0));
+      const Ray ray = lens_ray(rays, {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, vec2(0));
       EXPECT_EQ(ray.direction, vec3(0, 0, -1));
       // 6 units over 30 pixels, square; the film's middle is the camera's position.
       const vec3 expected(1 + 0.2f * (static_cast<float>(x) + 0.5f - 20),
@@ -202,7 +202,7 @@ TEST(ThinLensCamera, AnAspectStretchesTheViewOverTheFilm) {
     camera.aspect = 2.5f;
     const ThinLensCamera rays(camera, 64, 64);
     auto at_distance_one = [&](vec2 film) {
-      const Ray ray = ray_of(rays, film, vec2(0));
+      const Ray ray = lens_ray(rays, film, vec2(0));
       const vec3 p = ray.at((9 - ray.origin.z) / ray.direction.z);
       return vec2(p) - vec2(camera.position);
     };
@@ -224,7 +224,7 @@ TEST(ThinLensCamera, ProjectingUndoesTheRay) {
       const ThinLensCamera rays(camera, 320, 200);
       const CameraView view(camera, 320, 200);
       for (vec2 film : {vec2(0.5f, 0.5f), vec2(160, 100), vec2(311, 7), vec2(20, 199)}) {
-        const Ray ray = ray_of(rays, film, vec2(0));
+        const Ray ray = lens_ray(rays, film, vec2(0));
         const auto back = view.project(ray.at(3.7f));
         ASSERT_TRUE(back);
         EXPECT_LT(glm::length(*back - film), 2e-3f);
@@ -247,14 +247,14 @@ TEST(ThinLensCamera, TheLensMeetsOnThePlaneOfFocusAndBlursByTheClosedForm) {
     const ThinLensCamera rays(camera, 100, 80), straight(pinhole, 100, 80);
     const CameraView view(camera, 100, 80), pinhole_view(pinhole, 100, 80);
     const vec2 film(23, 61);
-    const Ray middle = ray_of(straight, film, vec2(0));
+    const Ray middle = lens_ray(straight, film, vec2(0));
     auto at_depth = [](const Ray& ray, float depth) {
       return ray.at((10 - depth - ray.origin.z) / ray.direction.z);
     };
     for (float depth : {4.0f, 2.0f, 9.0f}) {
       float widest = 0;
       for (int i = 0; i < 256; ++i) { // the rim of the lens
-        const Ray ray = ray_of(rays, film, {static_cast<float>(i) / 256, 0});
+        const Ray ray = lens_ray(rays, film, {static_cast<float>(i) / 256, 0});
         // What is seen at that depth through the rim would be on another place of a pinhole's film.
         const auto seen = pinhole_view.project(at_depth(ray, depth));
         ASSERT_TRUE(seen);
@@ -264,7 +264,7 @@ TEST(ThinLensCamera, TheLensMeetsOnThePlaneOfFocusAndBlursByTheClosedForm) {
     }
     EXPECT_EQ(view.blur_diameter(4), 0);
     EXPECT_EQ(pinhole_view.blur_diameter(9), 0);
-    EXPECT_LT(glm::length(at_depth(ray_of(rays, film, {0.9f, 0.1f}), 4) - at_depth(middle, 4)), 1e-5f);
+    EXPECT_LT(glm::length(at_depth(lens_ray(rays, film, {0.9f, 0.1f}), 4) - at_depth(middle, 4)), 1e-5f);
   }
 }
 

@@ -11,7 +11,7 @@ namespace {
 using namespace candela;
 using namespace candela::test;
 
-const std::atomic<bool> kNeverStop{false};
+const std::atomic<bool> kNever{false};
 
 Document adaptive_document(float error, int min_spp) {
   Document d = cornell_flush(40, 27, 64, true).document; // blocks of several sizes
@@ -20,7 +20,7 @@ Document adaptive_document(float error, int min_spp) {
   return d;
 }
 
-void expect_equal(const Film& a, const Film& b) {
+void expect_equal_films(const Film& a, const Film& b) {
   for (int y = 0; y < a.height(); ++y)
     for (int x = 0; x < a.width(); ++x) {
       ASSERT_EQ(a.count(x, y), b.count(x, y)) << x << ", " << y;
@@ -38,13 +38,13 @@ TEST(AdaptiveRender, DoesNotDependOnThreadsOrOnHowPassesDivideTheSamples) {
     options.threads = threads;
     std::uint32_t begin = 0;
     for (std::uint32_t end : ends) {
-      render_pass(*scene, d, {begin, end}, film, kNeverStop, options);
+      render_pass(*scene, d, {begin, end}, film, kNever, options);
       begin = end;
     }
     return film;
   };
   Film whole = render_in({64}, 1);
-  expect_equal(render_in({1, 2, 5, 11, 12, 40, 64}, 3), whole);
+  expect_equal_films(render_in({1, 2, 5, 11, 12, 40, 64}, 3), whole);
   std::set<int> counts;
   for (int y = 0; y < 27; ++y)
     for (int x = 0; x < 40; ++x) counts.insert(whole.count(x, y));
@@ -87,11 +87,11 @@ TEST(AdaptiveRender, SaysWhenNothingIsLeftToDo) {
   Film film(40, 27);
   PassResult result;
   for (std::uint32_t i = 0; i < 4096 && !result.converged; i += 64)
-    result = render_pass(*scene, d, {i, i + 64}, film, kNeverStop);
+    result = render_pass(*scene, d, {i, i + 64}, film, kNever);
   EXPECT_TRUE(result.converged);
-  EXPECT_EQ(render_pass(*scene, d, {5000, 5001}, film, kNeverStop).rays.samples, 0u);
+  EXPECT_EQ(render_pass(*scene, d, {5000, 5001}, film, kNever).rays.samples, 0u);
   d.settings.adaptive.error = 0;
-  EXPECT_FALSE(render_pass(*scene, d, {5000, 5001}, film, kNeverStop).converged);
+  EXPECT_FALSE(render_pass(*scene, d, {5000, 5001}, film, kNever).converged);
 }
 
 TEST(NoiseStatistical, TheEstimateIsTheErrorAgainstAReference) {

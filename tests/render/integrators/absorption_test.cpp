@@ -17,7 +17,7 @@ int glass(SceneMaker& s, vec3 absorption, float ior = 1, float opacity = 1) {
 }
 
 /// All of the film sees what the middle does.
-void look(SceneMaker& s, vec3 from) {
+void look_from(SceneMaker& s, vec3 from) {
   s.camera(from, {0, 0, 0}, 0.01f, {1, 0.3f, 0});
   s.document.settings.sampler.seed = sampler_seed(1);
 }
@@ -46,24 +46,24 @@ SceneMaker lamp_in_glass(float opacity = 1) {
 
 TEST(AbsorptionRender, ABodyInsideOfGlassIsAttenuated) {
   SceneMaker s = lamp_in_glass();
-  look(s, {0, 0, 5});
+  look_from(s, {0, 0, 5});
   expect_attenuated(s.document, 0.9 * glm::dvec3(kSigma));
 }
 
 TEST(AbsorptionRender, TheWayOfACameraInGlassBeginsAtTheCamera) {
   SceneMaker s = lamp_in_glass();
-  look(s, {0, 0, 0.6f});
+  look_from(s, {0, 0, 0.6f});
   expect_attenuated(s.document, 0.5 * glm::dvec3(kSigma));
   SceneMaker far(8, 1, 4); // from inside to the outside
   far.sphere({0, 0, 0}, 1, glass(far, kSigma));
   far.constant_light(vec3(1));
-  look(far, {0, 0, 0.25f}); // towards -z: 1.25 to the surface
+  look_from(far, {0, 0, 0.25f}); // towards -z: 1.25 to the surface
   expect_attenuated(far.document, 1.25 * glm::dvec3(kSigma));
 }
 
 TEST(AbsorptionRender, SurfacesThatAreLookedThroughAreCrossed) {
   SceneMaker s = lamp_in_glass(0); // the surface itself does nothing
-  look(s, {0, 0, 5});
+  look_from(s, {0, 0, 5});
   expect_attenuated(s.document, 0.9 * glm::dvec3(kSigma));
 }
 
@@ -75,7 +75,7 @@ TEST(AbsorptionRender, TheInnermostBodyAbsorbs) {
   s.sphere({0, 0, 0}, 0.1f, s.diffuse(vec3(0), vec3(1)));
   const glm::dvec3 inner = 0.3 * glm::dvec3(0.1, 2, 0.3);
   for (float z : {5.0f, 0.5f, 0.8f}) {
-    look(s, {0, 0, z});
+    look_from(s, {0, 0, z});
     expect_attenuated(
         s.document,
         std::min(static_cast<double>(z) - 0.6, 0.4) * (z > 0.6f ? 1.0 : 0.0) * glm::dvec3(kSigma) + inner);
@@ -146,7 +146,7 @@ TEST(AbsorptionRender, APointLightInGlassFades) {
   point.color = vec3(1);
   s.document.scene.lights.push_back(point);
   s.document.settings.path.max_depth = 2;
-  look(s, {0, 0, 1.5f});
+  look_from(s, {0, 0, 1.5f});
   const Film film = render(s.document);
   for (int c = 0; c < 3; ++c) {
     const double exact = std::exp(-(2 + 1.5) * static_cast<double>(kSigma[c])) / (4 * std::numbers::pi);

@@ -42,7 +42,7 @@ SceneMaker wall(int spp = 16) {
   s.document.settings.sampler.seed = sampler_seed(1);
   return s;
 }
-void look(SceneMaker& s, vec3 from) { s.camera(from, {0, 0, 0}, 0.01f, {1, 0.3f, 0}); }
+void look_at_centre(SceneMaker& s, vec3 from) { s.camera(from, {0, 0, 0}, 0.01f, {1, 0.3f, 0}); }
 
 void expect_uniform(const Document& document, vec3 exact, float tolerance = 2e-5f) {
   for (Integrator integrator : {Integrator::path, Integrator::whitted}) {
@@ -69,13 +69,13 @@ TEST(TwoSidedRender, EachSideHasItsMaterial) {
   ASSERT_EQ(front, 1);
   ASSERT_EQ(back, 2);
   s.rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, leaf);
-  look(s, {0, 0, 3});
+  look_at_centre(s, {0, 0, 3});
   expect_uniform(s.document, red);
-  look(s, {0.5f, 0, -3});
+  look_at_centre(s, {0.5f, 0, -3});
   expect_uniform(s.document, blue);
   s.document.settings.view = View::albedo;
   EXPECT_EQ(render(s.document).mean(0, 0), blue);
-  look(s, {0.5f, 0, 3});
+  look_at_centre(s, {0.5f, 0, 3});
   EXPECT_EQ(render(s.document).mean(0, 0), red);
 }
 
@@ -83,9 +83,9 @@ TEST(TwoSidedRender, ASideWithoutAMaterialIsBlack) {
   SceneMaker s = wall();
   const int grey = mirror(s, vec3(0.5f));
   s.rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, two_sided(s, -1, grey));
-  look(s, {0, 0, 3});
+  look_at_centre(s, {0, 0, 3});
   expect_uniform(s.document, vec3(0));
-  look(s, {0, 0, -3});
+  look_at_centre(s, {0, 0, -3});
   expect_uniform(s.document, vec3(0.5f));
 }
 
@@ -102,9 +102,9 @@ TEST(TwoSidedRender, MeshesAndTexturesOfEitherSide) {
   square.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
   square.triangles = {{0, 1, 2}, {0, 2, 3}};
   s.mesh(square, two_sided(s, r, g));
-  look(s, {0.1f, 0.2f, 3});
+  look_at_centre(s, {0.1f, 0.2f, 3});
   expect_uniform(s.document, vec3(1, 0, 0));
-  look(s, {0.1f, 0.2f, -3});
+  look_at_centre(s, {0.1f, 0.2f, -3});
   expect_uniform(s.document, vec3(0, 1, 0));
 }
 
@@ -114,9 +114,9 @@ TEST(TwoSidedRender, EmissionAndOpacityAreItsOwn) {
   const int whole = two_sided(s, part, part);
   s.document.scene.materials[static_cast<std::size_t>(whole)].emission = vec3(2);
   s.rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, whole);
-  look(s, {0, 0, 3});
+  look_at_centre(s, {0, 0, 3});
   expect_uniform(s.document, vec3(2));
-  look(s, {0, 0, -3});
+  look_at_centre(s, {0, 0, -3});
   expect_uniform(s.document, vec3(0));
   s.document.scene.materials[static_cast<std::size_t>(whole)].two_sided_emission = true;
   expect_uniform(s.document, vec3(2));
@@ -131,7 +131,7 @@ TEST(BlendRender, MixesMirrorsExactly) {
   for (float weight : {0.0f, 0.25f, 1.0f}) {
     SceneMaker t = s;
     t.rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, blend(t, a, b, weight));
-    look(t, {0.3f, 0, 3});
+    look_at_centre(t, {0.3f, 0, 3});
     t.document.settings.integrator = Integrator::whitted; // every lobe is followed
     t.document.settings.path.rr = RussianRoulette::off;
     const vec3 seen = render(t.document).mean(0, 0), exact = glm::mix(red, blue, weight);
@@ -160,9 +160,9 @@ TEST(BlendRender, BlendsOfTwoSidedMaterialsHaveSides) {
   const int a = mirror(s, red), b = mirror(s, blue), c = mirror(s, green);
   s.rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, blend(s, two_sided(s, a, b), c, 0.5f));
   s.document.settings.view = View::albedo;
-  look(s, {0, 0, 3});
+  look_at_centre(s, {0, 0, 3});
   EXPECT_EQ(render(s.document).mean(0, 0), 0.5f * (red + green));
-  look(s, {0, 0, -3});
+  look_at_centre(s, {0, 0, -3});
   EXPECT_EQ(render(s.document).mean(0, 0), 0.5f * (blue + green));
 }
 
@@ -221,7 +221,7 @@ TEST(BlendRender, WhittedFollowsTheRefractionsOfAllParts) {
   SceneMaker s = wall();
   Material glass = lossless("dielectric", 1.5f), diamond = lossless("dielectric", 2.4f);
   s.sphere({0, 0, 0}, 1, blend(s, s.material(glass), s.material(diamond), 0.5f));
-  look(s, {0.4f, 0.2f, 3});
+  look_at_centre(s, {0.4f, 0.2f, 3});
   s.document.settings.path.max_depth = 3; // reflection, and refraction with one more surface
   s.document.settings.path.rr = RussianRoulette::off;
   s.document.settings.stop.spp = 4096;
@@ -270,7 +270,7 @@ TEST(NullRender, IsNotThereForShadowRaysAndLampsBehindIt) {
   s.rectangle({0, 0, -1}, {3, 0, 0}, {0, 3, 0}, s.diffuse(vec3(0), vec3(2, 3, 4)));
   const int air = null(s);
   for (int i = 0; i < 20; ++i) s.rectangle({0, 0, 0.1f * static_cast<float>(i)}, {1, 0, 0}, {0, 1, 0}, air);
-  look(s, {0, 0, 5});
+  look_at_centre(s, {0, 0, 5});
   for (Integrator integrator : {Integrator::path, Integrator::whitted}) {
     s.document.settings.integrator = integrator;
     EXPECT_EQ(render(s.document).mean(1, 0), vec3(2, 3, 4));
@@ -282,7 +282,7 @@ TEST(NullRender, CarriesABodyThatAbsorbs) {
   const vec3 sigma(1, 0.5f, 0);
   s.sphere({0, 0, 0}, 1, null(s, sigma));
   s.sphere({0, 0, 0}, 0.1f, s.diffuse(vec3(0), vec3(1)));
-  look(s, {0, 0, 5});
+  look_at_centre(s, {0, 0, 5});
   const vec3 seen = render(s.document).mean(0, 0);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], std::exp(-0.9f * sigma[c]), 2e-4f);
 }
@@ -295,7 +295,7 @@ TEST(NullRender, StaysInvisibleUnderTheOverrideAndWhateverItsRowsSay) {
   m.emission = vec3(5);
   s.rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, air);
   s.constant_light(vec3(0.25f));
-  look(s, {0, 0, 5});
+  look_at_centre(s, {0, 0, 5});
   apply_setting(s.document, "override.brdf=diffuse");
   EXPECT_EQ(render(s.document).mean(0, 0), vec3(0.25f));
 }

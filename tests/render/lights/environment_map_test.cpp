@@ -1,6 +1,7 @@
 // Panoramas: mappings of directions, sampling, illumination.
 
 #include "lights/environment_map.h"
+#include "render/closed_forms.h"
 #include "render/render_testing.h"
 #include "support/direction_statistics.h"
 
@@ -22,7 +23,6 @@ struct MappingCase {
   EnvironmentMapping mapping;
   ivec2 size;
 };
-constexpr double kPiD = std::numbers::pi;
 
 std::optional<dvec3> in_square(int face, dvec2 q) { // +x -x +y -y +z -z, seen from the inside
   double s = 2 * q.x - 1, t = 1 - 2 * q.y;

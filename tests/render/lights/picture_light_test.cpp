@@ -16,7 +16,7 @@ using namespace candela;
 using namespace candela::test;
 
 /// Four by three cells, one of them black.
-const EmissionGrid& some_picture() {
+const EmissionGrid& twelve_texels() {
   static const EmissionGrid grid(
       std::array{1.0f, 0.0f, 3.0f, 2.0f, 0.5f, 9.0f, 1.0f, 1.0f, 4.0f, 2.0f, 0.1f, 1.0f}, 4);
   return grid;
@@ -137,26 +137,26 @@ void expect_density(const L& light, vec3 from, double least) {
 
 TEST(PictureLightStatistical, Disc) {
   for (bool two_sided : {false, true}) {
-    const DiscLight light = disc(some_picture(), two_sided);
+    const DiscLight light = disc(twelve_texels(), two_sided);
     expect_density(light, {0, 0, 0}, 1 - 2e-3);
     expect_density(light, {0.3f, 1.6f, 0.1f}, 1 - 2e-3);
   }
-  expect_density(disc(some_picture(), true), {0.2f, 3, 0}, 1 - 2e-3);
+  expect_density(disc(twelve_texels(), true), {0.2f, 3, 0}, 1 - 2e-3);
   const LightSamplingContext behind{{0, 3, 0}, {0, -1, 0}};
-  const DiscLight light = disc(some_picture());
+  const DiscLight light = disc(twelve_texels());
   EXPECT_FALSE(light.sample(behind, {0.3f, 0.4f}) || light.sample(behind, {0.95f, 0.4f}));
   EXPECT_EQ(light.pdf(behind, {0.1f, 2, 0}, glm::normalize(vec3(0.1f, -1, 0))), 0);
 }
 
 TEST(PictureLightStatistical, Sphere) {
   for (bool two_sided : {false, true}) {
-    const SphereLight light = sphere(some_picture(), two_sided);
+    const SphereLight light = sphere(twelve_texels(), two_sided);
     expect_density(light, {1, -30, 3}, 0.6);
     expect_density(light, {2.5f, 2, 2}, 0.6);
   }
-  expect_density(sphere(some_picture(), true), {1.2f, 2.1f, 3}, 1 - 2e-3);
+  expect_density(sphere(twelve_texels(), true), {1.2f, 2.1f, 3}, 1 - 2e-3);
   const LightSamplingContext inside{{1.2f, 2, 3}, {0, -1, 0}};
-  const SphereLight light = sphere(some_picture());
+  const SphereLight light = sphere(twelve_texels());
   EXPECT_FALSE(light.sample(inside, {0.3f, 0.4f}) || light.sample(inside, {0.95f, 0.4f}));
 }
 

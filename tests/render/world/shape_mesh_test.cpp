@@ -1,5 +1,6 @@
 // Shapes made of triangles: closed, of the right size, with outward normals.
 
+#include "render/closed_forms.h"
 #include "render/render_testing.h"
 #include "render/world/shape_mesh.h"
 
@@ -10,8 +11,6 @@ namespace {
 using namespace candela;
 using namespace candela::test;
 using glm::dvec3;
-
-constexpr double kPiD = std::numbers::pi;
 
 struct ShapeCase {
   const char* name;

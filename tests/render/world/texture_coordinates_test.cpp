@@ -215,7 +215,7 @@ Document quarters(const mat4& m, View view) {
   return s.document;
 }
 
-double difference(const Film& a, const Film& b) {
+double mean_difference(const Film& a, const Film& b) {
   double sum = 0;
   for (int y = 0; y < a.height(); ++y)
     for (int x = 0; x < a.width(); ++x) {
@@ -237,7 +237,7 @@ TEST(TextureCoordinatesRender, TurnWithTheirSphereInEveryIntegratorAndView) {
         return render(d);
       };
       const Film turned = film(turn), triangles = film(as_triangles), upright = film(mat4(1));
-      const double same = difference(turned, triangles), other = difference(turned, upright);
+      const double same = mean_difference(turned, triangles), other = mean_difference(turned, upright);
       EXPECT_LT(same, 0.1 * other) << static_cast<int>(integrator) << ' ' << static_cast<int>(view);
       EXPECT_GT(other, 0.03) << static_cast<int>(integrator) << ' ' << static_cast<int>(view);
     }
