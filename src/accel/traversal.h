@@ -94,11 +94,13 @@ template <class F, bool any_hit, class Cost>
       return accept(found);
     } else {
       const typename Kind::Pack& pack = tree.packs<Kind>()[leaf.pack()];
+      if constexpr (any_hit && requires { Kind::template occluded<F>(pack, ray, t_min, t_max); })
+        return Kind::template occluded<F>(pack, ray, t_min, t_max);
       LaneHits lanes;
       Kind::template intersect<F>(pack, ray, t_min, t_max, lanes);
       if (any_hit || !lanes.lanes) return lanes.lanes != 0;
       const std::size_t lane = closest_lane(lanes.lanes, lanes.t, pack.primitive);
-      const vec2 uv = Kind::parameters(pack, lane, ray, lanes.t[lane]);
+      const vec2 uv = Kind::parameters(pack, lane, ray, lanes);
       return accept(
           {lanes.t[lane], uv.x, uv.y, pack.primitive[lane], kNoInstance, PrimitiveKinds::kind_of<Kind>});
     }

@@ -80,7 +80,7 @@ bool in_range(const FieldInfo& field, double value) {
 std::string bound_text(double bound, bool integer) {
   if (!integer && std::abs(bound) >= 1e6) {
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(bound))));
-    const std::string text = fmt::format("{}e{}", bound / std::pow(10, exponent), exponent);
+    std::string text = fmt::format("{}e{}", bound / std::pow(10, exponent), exponent);
     if (double read = 0; text.size() <= 8 && parse_number(text, read) && read == bound) return text;
   }
   return fmt::format("{}", bound);

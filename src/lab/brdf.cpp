@@ -30,7 +30,7 @@ vec3 direction_from_chart(vec2 q) {
 }
 
 BrdfLesson::BrdfLesson(Bsdf bsdf, const BrdfOptions& options, SampleSource source, std::uint64_t samples)
-    : bsdf_(std::move(bsdf)), options_(options), source_(source), samples_(samples) {
+    : bsdf_(bsdf), options_(options), source_(source), samples_(samples) {
   histogram_.grid = kGrid;
   histogram_.counts.assign(kGrid.size(), 0);
   const vec3 wo = options_.wo();

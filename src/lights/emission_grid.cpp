@@ -4,7 +4,8 @@ namespace candela {
 
 EmissionGrid::EmissionGrid(std::span<const float> luminance, std::size_t columns, const Progress* progress)
     : cells_(luminance, columns, progress), columns_(columns),
-      size_(static_cast<float>(columns), static_cast<float>(luminance.size() / columns)) {
+      size_(static_cast<float>(columns),
+            static_cast<float>(static_cast<double>(luminance.size()) / static_cast<double>(columns))) {
   const auto n = static_cast<double>(luminance.size());
   double sum = 0, squares = 0;
   for (float l : luminance) {

@@ -8,6 +8,7 @@ constexpr std::string_view kProjections[] = {"perspective", "orthographic", "sph
 constexpr std::string_view kStereo[] = {"none", "side_by_side", "top_bottom"};
 constexpr std::string_view kLenses[] = {"thin", "double_gauss", "wide_angle", "telephoto", "fisheye"};
 
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a path of members
 #define AT(member) [](Document& d) -> void* { return &d.member; }
 
 const Field<Document> kCameraRows[] = {

@@ -83,8 +83,9 @@ Image clear_sky_panorama(const ClearSky& clear, int width, int height, int subpi
     for (int x = 0; x < width; ++x) {
       glm::dvec3 sum(0);
       for (int i = 0; i < subpixels * subpixels; ++i) {
-        const glm::dvec3 d = direction((x + (i % subpixels + 0.5) / subpixels) / width,
-                                       (y + (i / subpixels + 0.5) / subpixels) / height);
+        const int column = i % subpixels, row = i / subpixels;
+        const glm::dvec3 d =
+            direction((x + (column + 0.5) / subpixels) / width, (y + (row + 0.5) / subpixels) / height);
         if (d.y < 0)
           sum += clear.ground * (0.6 + 0.4 * std::exp(8 * d.y)); // haze towards the horizon
         else

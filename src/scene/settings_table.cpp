@@ -42,6 +42,7 @@ constexpr std::string_view kFalseColors[] = {"auto", "off", "viridis", "magma"};
 
 constexpr auto kImage = Invalidates::image;
 
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a path of members
 #define AT(member) [](Document& d) -> void* { return &d.member; }
 
 /// All rows except those of the camera and of the override, which are derived from the materials' rows.

@@ -4,7 +4,7 @@
 
 namespace candela {
 
-RenderSession::RenderSession(SessionOptions options) : state_(std::make_unique<State>(options)) {}
+RenderSession::RenderSession(const SessionOptions& options) : state_(std::make_unique<State>(options)) {}
 RenderSession::~RenderSession() = default;
 
 std::uint64_t RenderSession::submit(Document document) {

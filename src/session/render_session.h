@@ -51,7 +51,7 @@ struct SessionOptions {
 
 class RenderSession {
 public:
-  explicit RenderSession(SessionOptions options = {});
+  explicit RenderSession(const SessionOptions& options = {});
   ~RenderSession(); ///< cancels and joins
   RenderSession(const RenderSession&) = delete;
   RenderSession& operator=(const RenderSession&) = delete;

@@ -5,7 +5,7 @@
 
 namespace candela {
 
-RenderTurns::RenderTurns(std::vector<int> groups) {
+RenderTurns::RenderTurns(const std::vector<int>& groups) {
   for (int group : groups) variants_.push_back({group, false, false, {}});
 }
 

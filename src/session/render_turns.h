@@ -15,7 +15,7 @@ public:
   enum class Fairness { samples, time };
 
   /// `groups[i]` is the group of variant i. Variants of a group stay level; groups alternate.
-  explicit RenderTurns(std::vector<int> groups);
+  explicit RenderTurns(const std::vector<int>& groups);
 
   void set_fairness(Fairness fairness);
 

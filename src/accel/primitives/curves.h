@@ -108,28 +108,40 @@ struct Curves {
     });
   }
 
-  /// The lanes whose control polygon comes near the ray are tested one by one, in double precision.
+  /// The closest lane, and those at the same t. The lanes whose control polygon comes near the ray are tested
+  /// one by one, in double precision; those that begin behind the closest hit so far are not.
   template <class F>
   static void intersect(const Pack& pack, const Ray& ray, float t_min, float t_max,
                         accel_detail::LaneHits& hits) {
-    const simd::LaneMask near = near_lanes<F>(pack, ray);
+    NearLanes near = near_lanes<F>(pack, ray, t_min, t_max);
     hits.lanes = 0;
-    if (!near) return;
-    const accel_detail::CurveRay curve_ray(ray, t_min, t_max);
-    simd::for_each_lane(near, [&](int i) {
-      const auto lane = static_cast<std::size_t>(i);
+    if (!near.lanes) return;
+    accel_detail::CurveRay curve_ray(ray, t_min, t_max);
+    do {
+      const std::size_t lane = near.take_first();
+      if (near.begin[lane] > curve_ray.t_max) return;
       const auto hit = accel_detail::intersect_curve(segment(pack, lane), curve_ray);
-      if (!hit) return;
-      hits.t[lane] = hit->t;
-      hits.lanes |= 1u << i;
-    });
+      if (!hit) continue;
+      hits.t[lane] = hit->t, hits.u[lane] = hit->u;
+      hits.lanes |= 1u << lane;
+      curve_ray.t_max = std::nextafter(hit->t, kInfinity);
+    } while (near.lanes);
+  }
+
+  template <class F>
+  static bool occluded(const Pack& pack, const Ray& ray, float t_min, float t_max) {
+    NearLanes near = near_lanes<F>(pack, ray, t_min, t_max);
+    if (!near.lanes) return false;
+    const accel_detail::CurveRay curve_ray(ray, t_min, t_max);
+    do
+      if (accel_detail::intersect_curve(segment(pack, near.take_first()), curve_ray)) return true;
+    while (near.lanes);
+    return false;
   }
 
   /// CurveHit::u, and 0.
-  static vec2 parameters(const Pack& pack, std::size_t lane, const Ray& ray, float t) {
-    const accel_detail::CurveRay again(ray, std::nextafter(t, -kInfinity), std::nextafter(t, kInfinity));
-    const auto hit = accel_detail::intersect_curve(segment(pack, lane), again);
-    return {hit ? hit->u : 0, 0};
+  static vec2 parameters(const Pack&, std::size_t lane, const Ray&, const accel_detail::LaneHits& hits) {
+    return {hits.u[lane], 0};
   }
 
 private:
@@ -144,14 +156,30 @@ private:
     return curve;
   }
 
+  struct NearLanes {
+    simd::LaneMask lanes = 0;
+    alignas(32) std::array<float, kWidth> begin; ///< t before which the ray does not hit the lane
+
+    std::size_t take_first() {
+      auto first = static_cast<std::size_t>(std::countr_zero(lanes));
+      simd::for_each_lane(lanes & (lanes - 1), [&](int i) {
+        if (const auto lane = static_cast<std::size_t>(i); begin[lane] < begin[first]) first = lane;
+      });
+      lanes &= ~(1u << first);
+      return first;
+    }
+  };
+
   /// Seen along the ray, the curve lies within the hull of its control points, grown by the greatest radius:
-  /// lanes where that misses the ray along either axis across it, or across the line between the ends, are
-  /// out. Unused lanes are NaN or infinite, and out.
+  /// lanes where that misses the ray along either axis across it, or across the line between the ends, or
+  /// lies beyond t_min or t_max, are out. Unused lanes are NaN or infinite, and out.
   template <class F>
-  static simd::LaneMask near_lanes(const Pack& pack, const Ray& ray) {
-    const Basis across = Basis::from_normal(glm::normalize(ray.direction));
+  static NearLanes near_lanes(const Pack& pack, const Ray& ray, float t_min, float t_max) {
+    const float length = glm::length(ray.direction);
+    const vec3 along = ray.direction / length;
+    const Basis across = Basis::from_normal(along);
     const vec3 axis_x = across.s, axis_y = across.t;
-    std::array<F, 4> x, y;
+    std::array<F, 4> x, y, z;
     F radius(0.0f), reach(0.0f);
     for (std::size_t k = 0; k < 4; ++k) {
       std::array<F, 3> p;
@@ -161,6 +189,7 @@ private:
       }
       x[k] = p[0] * F(axis_x.x) + p[1] * F(axis_x.y) + p[2] * F(axis_x.z);
       y[k] = p[0] * F(axis_y.x) + p[1] * F(axis_y.y) + p[2] * F(axis_y.z);
+      z[k] = p[0] * F(along.x) + p[1] * F(along.y) + p[2] * F(along.z);
       radius = max(F::load(pack.point[k][3].data()), radius);
     }
     // The axes are off by some eps, the sums by some eps of what is summed (eps = 2^-24); what lies beyond
@@ -173,12 +202,20 @@ private:
       limit = limit + (hi - lo) * F(8 * kOverlap);
       return less_equal(lo, limit) & less_equal(F(0.0f) - limit, hi);
     };
-    const simd::LaneMask lanes = meets(x, thick) & meets(y, thick);
-    if (!lanes) return 0;
+    NearLanes near;
+    near.lanes = meets(x, thick) & meets(y, thick);
+    if (!near.lanes) return near;
+    const F first = least(z), last = greatest(z), beyond = thick + (last - first) * F(8 * kOverlap);
+    const F begin = (first - beyond) * F((1 - 0x1p-20f) / length),
+            end = (last + beyond) * F((1 + 0x1p-20f) / length);
+    near.lanes &= less_equal(begin, F(t_max)) & less_equal(F(t_min), end);
+    if (!near.lanes) return near;
     const F nx = y[0] - y[3], ny = x[3] - x[0];
     std::array<F, 4> off;
     for (std::size_t k = 0; k < 4; ++k) off[k] = x[k] * nx + y[k] * ny;
-    return lanes & meets(off, (thick + rounding) * sqrt(nx * nx + ny * ny) * F(1 + 0x1p-20f));
+    near.lanes &= meets(off, (thick + rounding) * sqrt(nx * nx + ny * ny) * F(1 + 0x1p-20f));
+    begin.store(near.begin.data());
+    return near;
   }
 };
 

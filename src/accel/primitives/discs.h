@@ -69,7 +69,9 @@ struct Discs {
     t.store(hits.t.data());
   }
 
-  static vec2 parameters(const Pack&, std::size_t, const Ray&, float) { return vec2(0); }
+  static vec2 parameters(const Pack&, std::size_t, const Ray&, const accel_detail::LaneHits&) {
+    return vec2(0);
+  }
 };
 
 } // namespace primitives

@@ -63,7 +63,7 @@ struct MovingTriangles {
     found.t.store(hits.t.data());
   }
 
-  static vec2 parameters(const Pack& pack, std::size_t lane, const Ray& ray, float) {
+  static vec2 parameters(const Pack& pack, std::size_t lane, const Ray& ray, const accel_detail::LaneHits&) {
     using F = simd::Float8;
     const TrianglePack now = pack_at<F>(pack, ray.time);
     const accel_detail::TriangleHits<F> found(now, accel_detail::ShearedRay<F>(ray));

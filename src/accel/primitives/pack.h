@@ -22,10 +22,10 @@ inline constexpr std::array<float, kWidth> kNowhere{kInfinity, kInfinity, kInfin
 namespace accel_detail {
 
 /// What an intersection kernel finds: the lanes hit, and their t in memory, because single lanes are read
-/// next.
+/// next; and where its kind finds it anyway, Hit::u.
 struct LaneHits {
   simd::LaneMask lanes = 0;
-  alignas(32) std::array<float, kWidth> t;
+  alignas(32) std::array<float, kWidth> t, u;
 };
 
 inline bool usable(vec3 p) {

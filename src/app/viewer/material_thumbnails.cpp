@@ -126,7 +126,7 @@ void MaterialThumbnails::begin(const MaterialSample& sample, int side, int spp) 
     } catch (const Error& e) { problem = e.what(); } catch (const std::bad_alloc&) {
       problem = "there is not enough memory: close other programs";
     }
-    return [this, sample = std::move(sample), side, spp, studio, scene = std::move(scene), pixels, given_up,
+    return [this, sample, side, spp, studio, scene = std::move(scene), pixels, given_up,
             problem = std::move(problem)] {
       studio_ = studio;
       if (!given_up) scene_ = scene; // the next frame frees it if no thumbnail is drawn any more

@@ -54,7 +54,7 @@ SavedPicture reserve_names(const fs::path& folder, const std::string& stem) {
 } // namespace
 
 SavedPicture save_picture(const DisplayImage& image, const fs::path& folder, const std::string& stem) {
-  const SavedPicture names = reserve_names(folder, stem);
+  SavedPicture names = reserve_names(folder, stem);
   try {
     std::vector<std::uint8_t> rgb;
     rgb.reserve(image.rgba.size() / 4 * 3);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ranges>
 
 namespace candela {
 
@@ -34,7 +33,7 @@ void TextureTiles::clear() {
 }
 
 void TextureTiles::release(Look& look) {
-  for (const Tile& tile : look.tiles | std::views::values) gl_.DeleteTextures(1, &tile.texture);
+  for (const auto& [key, tile] : look.tiles) gl_.DeleteTextures(1, &tile.texture);
   look.tiles.clear();
 }
 
@@ -119,7 +118,8 @@ void TextureTiles::draw(ImDrawList& list, const GridRect& rect, vec2 clip_lo, ve
 void TextureTiles::draw_tiles(ImDrawList& list, Look& look, const GridRect& rect, vec2 clip_lo, vec2 clip_hi,
                               int least_reduction) {
   const vec2 size(look.grid->size()), scale = (rect.hi - rect.lo) / size;
-  for (auto& [key, tile] : look.tiles | std::views::reverse) {
+  for (auto at = look.tiles.rbegin(); at != look.tiles.rend(); ++at) {
+    auto& [key, tile] = *at;
     if (key.reduction < least_reduction || (complete_ && key.reduction > least_reduction)) continue;
     const float block = std::exp2(static_cast<float>(key.reduction));
     const vec2 origin = block * static_cast<float>(kSide) * vec2(key.x, key.y);

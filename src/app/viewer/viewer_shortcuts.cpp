@@ -108,10 +108,8 @@ void Viewer::escape() {
     cancel_gesture();
   else if (!imgui_->OpenPopupStack.empty())
     ImGui::ClosePopupToLevel(0, true);
-  else if (state_.reading)
-    state_.cancel_requested = true;
-  else if (state_.may_stop_building && state_.now - state_.building_since > 1)
-    state_.cancel_requested = true; // cancels building, and returns to the state before
+  else if (state_.reading || (state_.may_stop_building && state_.now - state_.building_since > 1))
+    state_.cancel_requested = true; // cancels reading or building, and returns to the state before
   else if (state_.question != Question::none)
     state_.question = Question::none;
   else if (state_.save_as_visible)

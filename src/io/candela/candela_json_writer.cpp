@@ -34,7 +34,7 @@ public:
 
   std::string run() {
     std::vector<std::string> parts = {"  \"candela\": 1"};
-    auto add = [&](std::string_view key, std::string_view open, std::vector<std::string> items,
+    auto add = [&](std::string_view key, std::string_view open, const std::vector<std::string>& items,
                    std::string_view close) {
       if (items.empty()) return;
       parts.push_back(fmt::format("  \"{}\": {}\n    {}\n  {}", key, open, joined(items, ",\n    "), close));

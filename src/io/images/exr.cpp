@@ -69,13 +69,13 @@ private:
 };
 
 bool near(const Imf::Chromaticities& a, const Imf::Chromaticities& b) {
-  auto close = [](Imath::V2f p, Imath::V2f q) { return (p - q).length() < 1e-3f; };
+  auto close = [](const Imath::V2f& p, const Imath::V2f& q) { return (p - q).length() < 1e-3f; };
   return close(a.red, b.red) && close(a.green, b.green) && close(a.blue, b.blue) && close(a.white, b.white);
 }
 
 /// From linear RGB of the given primaries to XYZ, white at Y = 1 (SMPTE RP 177-1993).
 glm::dmat3 xyz_from_rgb(const Imf::Chromaticities& c) {
-  auto xyz = [](Imath::V2f p) {
+  auto xyz = [](const Imath::V2f& p) {
     double x = static_cast<double>(p.x), y = static_cast<double>(p.y);
     return glm::dvec3(x / y, 1, (1 - x - y) / y);
   };

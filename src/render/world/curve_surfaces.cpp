@@ -43,8 +43,8 @@ std::size_t pieces_of(const Bezier& b) {
   double length = 0, width = 0;
   for (std::size_t k = 0; k < 3; ++k) length += glm::length(glm::dvec3(b[k + 1] - b[k]));
   for (const glm::dvec4& p : b) width = std::max(width, 2 * p.w);
-  constexpr double kThick = 24;
-  constexpr std::size_t kMost = 8;
+  constexpr double kThick = 12;
+  constexpr std::size_t kMost = 16;
   std::size_t pieces = 1;
   while (pieces < kMost && length > kThick * width * static_cast<double>(pieces)) pieces *= 2;
   return pieces;

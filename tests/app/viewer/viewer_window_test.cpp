@@ -12,6 +12,7 @@
 
 /// Mesa keeps a few kilobytes per context until the process ends; LeakSanitizer calls this function for
 /// suppressions.
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa.so"; }
 
 namespace candela::test {

@@ -2,6 +2,8 @@
 
 #include "io/cs123/cs123_files.h"
 
+#include <fmt/format.h>
+
 namespace candela {
 namespace {
 
@@ -106,7 +108,7 @@ TEST_F(Cs123Reader, CapsDepthAndGrowth) {
     for (int i = 1; i <= 40; ++i) {
       std::string half =
           "<transblock><object type='master' name='t" + std::to_string(i - 1) + "'/></transblock>";
-      trees += "<object type='tree' name='t" + std::to_string(i) + "'>" + half + half + "</object>\n";
+      trees += fmt::format("<object type='tree' name='t{}'>{}{}</object>\n", i, half, half);
     }
     return trees + root("<object type='master' name='t40'/>");
   };

@@ -134,7 +134,7 @@ TEST(AtomicFile, ReadersSeeOneOfTheVersionsWhole) {
   std::string path = folder / "a";
   std::string versions[] = {std::string(100000, 'a'), std::string(50000, 'b')};
   write_file_atomically(path, versions[0]);
-  std::jthread writer([&](std::stop_token stop) {
+  std::jthread writer([&](const std::stop_token& stop) {
     for (int i = 1; !stop.stop_requested(); ++i) write_file_atomically(path, versions[i % 2]);
   });
   for (int i = 0; i < 200; ++i) {

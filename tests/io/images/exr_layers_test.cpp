@@ -37,7 +37,7 @@ struct ExrLayers : ::testing::Test {
       for (const std::string& name : part.channels) header.channels().insert(name, Imf::Channel(Imf::HALF));
       headers.push_back(header);
     }
-    const std::string path = folder / "a.exr";
+    std::string path = folder / "a.exr";
     Imf::MultiPartOutputFile file(path.c_str(), headers.data(), static_cast<int>(headers.size()));
     float value = 0;
     for (std::size_t i = 0; i < parts.size(); ++i) {

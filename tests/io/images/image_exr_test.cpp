@@ -26,9 +26,11 @@ TEST(ImageExr, EveryCompressionAndPixelType) {
       header.compression() = static_cast<Imf::Compression>(compression);
       std::vector<half> halves(kWidth * kHeight);
       std::vector<float> floats(halves.size());
-      for (std::size_t i = 0; i < halves.size(); ++i)
-        floats[i] = halves[i] = half(1.0f + std::sin(static_cast<float>(i % kWidth) * 0.05f) *
-                                                std::cos(static_cast<float>(i / kWidth) * 0.05f));
+      for (std::size_t i = 0; i < halves.size(); ++i) {
+        const std::size_t x = i % kWidth, y = i / kWidth;
+        floats[i] = halves[i] =
+            half(1.0f + std::sin(static_cast<float>(x) * 0.05f) * std::cos(static_cast<float>(y) * 0.05f));
+      }
       for (const char* name : {"R", "G", "B", "A"}) header.channels().insert(name, Imf::Channel(type));
       {
         Imf::OutputFile file((folder / "a.exr").c_str(), header);
@@ -106,7 +108,7 @@ TEST(ImageExr, ChannelsByName) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_input);
-    EXPECT_NE(std::string(error.what()).find("Z"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find('Z'), std::string::npos);
   }
 }
 

@@ -56,7 +56,10 @@ TEST_F(PanoramaReader, StacksFacesInTheirOrder) {
     write_linear_image(grey(3, 3, static_cast<float>(i)), files / (std::to_string(i) + ".pfm"));
   auto cube = read({"0.pfm", "1.pfm", "2.pfm", "3.pfm", "4.pfm", "5.pfm"});
   ASSERT_EQ(cube->image.height, 18);
-  for (int y = 0; y < 18; ++y) EXPECT_EQ(cube->image.at(2, y), vec3(static_cast<float>(y / 3)));
+  for (int y = 0; y < 18; ++y) {
+    const int face = y / 3;
+    EXPECT_EQ(cube->image.at(2, y), vec3(static_cast<float>(face)));
+  }
   EXPECT_EQ(cube->sources.size(), 6u);
   EXPECT_TRUE(warnings.warnings().empty());
 }

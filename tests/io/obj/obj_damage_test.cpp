@@ -3,6 +3,8 @@
 #include "io/scene_files.h"
 #include "support/materials.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace candela {
@@ -77,7 +79,7 @@ TEST_F(ObjDamage, IndicesThatMeanNothingCostNoMoreThanTheyMust) {
 
 TEST_F(ObjDamage, FillerAtTheEndsIsNoText) {
   for (const std::string& end : {std::string(3, '\0'), std::string("\x1a"), std::string("\x1a\0\0", 3)}) {
-    EXPECT_EQ(read(kQuad + "f 1 2 3\n" + end).triangles.size(), 1u);
+    EXPECT_EQ(read(fmt::format("{}f 1 2 3\n{}", kQuad, end)).triangles.size(), 1u);
     EXPECT_TRUE(warned("1 x x.obj: " + std::to_string(end.size()) + " bytes at the end that are no text"));
   }
   const std::string mark = "\xef\xbb\xbf";
