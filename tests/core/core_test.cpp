@@ -50,7 +50,7 @@ void expect_avalanche(Hash hash, Word, std::uint64_t salt) {
   // Not a test of exactness: the flips of a permutation are not quite independent; a factor of two is a poor
   // hash.
   EXPECT_LT(chi_square / static_cast<double>(flips.size()), 1.2) << seed_note();
-  for (int f : flips) EXPECT_NEAR(f, kTrials / 2, 7 * std::sqrt(kTrials / 4.0)) << seed_note();
+  for (int f : flips) EXPECT_NEAR(f, kTrials / 2.0, 7 * std::sqrt(kTrials / 4.0)) << seed_note();
 }
 
 TEST(HashStatistical, AvalancheOf32And64Bits) {

@@ -30,7 +30,7 @@ std::shared_ptr<const Panorama> picture(int width = 64) {
   for (int y = 0; y < width / 2; ++y)
     for (int x = 0; x < width; ++x) {
       const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(width);
-      const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(width / 2);
+      const float v = (static_cast<float>(y) + 0.5f) / (0.5f * static_cast<float>(width));
       p->image.pixels.push_back(vec3(2, 3, 1) * std::max(v - 0.25f, 0.0f) * (1.5f + std::sin(2 * kPi * u)));
     }
   return p;

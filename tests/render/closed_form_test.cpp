@@ -44,7 +44,7 @@ std::vector<ivec2> upper_wall_pixels(const Camera& camera, int size) {
       bool inside = true;
       for (int corner = 0; corner < 4; ++corner) {
         dvec3 p = cornell_wall_point(dvec3(camera.position), static_cast<double>(camera.vertical_fov), size,
-                                     x + corner % 2, y + corner / 2, 559.2);
+                                     x + corner % 2, y + (corner < 2 ? 0 : 1), 559.2);
         inside &= p.x > 1 && p.x < 551 && p.y > 340 && p.y < 510;
       }
       if (inside) pixels.emplace_back(x, y);

@@ -35,8 +35,8 @@ std::vector<Document> documents() {
   return all;
 }
 
-Film film_of(const RenderScene& scene, const Document& d, std::vector<SampleRange> ranges,
-             PassOptions options) {
+Film film_of(const RenderScene& scene, const Document& d, const std::vector<SampleRange>& ranges,
+             const PassOptions& options) {
   Film film(d.settings.film.width, d.settings.film.height);
   for (const SampleRange& range : ranges)
     EXPECT_TRUE(render_pass(scene, d, range, film, kNeverStop, options).completed);

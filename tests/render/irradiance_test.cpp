@@ -42,7 +42,7 @@ constexpr Strategy kStrategies[] = {
 
 /// Every strategy that can find the light gives the irradiance; `slack` multiplies the tolerances where the
 /// noise asks for it.
-void expect_irradiance(SceneMaker scene, dvec3 irradiance, bool by_chance = true, double slack = 1) {
+void expect_irradiance(const SceneMaker& scene, dvec3 irradiance, bool by_chance = true, double slack = 1) {
   int salt = 0;
   for (const Strategy& strategy : kStrategies) {
     if (strategy.light == LightSampling::bsdf && !by_chance) continue;
@@ -65,7 +65,7 @@ void expect_irradiance(SceneMaker scene, dvec3 irradiance, bool by_chance = true
 }
 
 /// The plane's camera pixels are black, whatever the strategy.
-void expect_dark(SceneMaker scene) {
+void expect_dark(const SceneMaker& scene) {
   for (const Strategy& strategy : kStrategies) {
     SCOPED_TRACE(strategy.name);
     Document d = scene.document;

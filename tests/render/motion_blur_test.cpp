@@ -124,8 +124,9 @@ TEST(MotionBlurRender, ABladeThatTurnsIsSeenForItsAngle) {
     for (int x = 0; x < kSize; ++x) {
       double exact = 0;
       for (int k = 0; k < 64; ++k) {
-        const double px = (x + (k % 8 + 0.5) / 8 - 0.5 * kSize) * 2 / kSize,
-                     py = (y + (k / 8 + 0.5) / 8 - 0.5 * kSize) * 2 / kSize;
+        const int column = k % 8, row = k / 8;
+        const double px = (x + (column + 0.5) / 8 - 0.5 * kSize) * 2 / kSize,
+                     py = (y + (row + 0.5) / 8 - 0.5 * kSize) * 2 / kSize;
         exact += 4 * std::asin(std::min(static_cast<double>(0.1f) / std::hypot(px, py), 1.0)) /
                  (2 * std::numbers::pi) / 64;
       }

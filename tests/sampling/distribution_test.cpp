@@ -139,8 +139,9 @@ TEST(PiecewiseConstant, RoundingKeepsToTheCell) {
     for (std::size_t i = 0; i < n; i += 2) weights[i] = 1;
     PiecewiseConstant1D d(weights);
     // Either side of where one cell ends and the next begins.
+    const std::size_t filled = (n + 1) / 2;
     for (std::size_t i = 0; i <= n / 2; ++i) {
-      float u = static_cast<float>(i) / static_cast<float>(n / 2 + n % 2);
+      float u = static_cast<float>(i) / static_cast<float>(filled);
       for (float v : {u, std::nextafter(u, 0.0f), std::nextafter(u, 1.0f)}) {
         PiecewiseConstant1D::Sample s = d.sample(std::min(v, kOneMinusEpsilon));
         ASSERT_EQ(s.cell % 2, 0u);

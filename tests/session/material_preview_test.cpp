@@ -18,7 +18,7 @@ namespace {
 Material named(const char* name, MaterialModel model) {
   Material m;
   m.name = name;
-  m.model = std::move(model);
+  m.model = model;
   return m;
 }
 

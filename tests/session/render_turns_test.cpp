@@ -12,7 +12,7 @@ using Fairness = RenderTurns::Fairness;
 
 /// Threads that take turns; each turn adds the variant's portion.
 struct Comparison {
-  explicit Comparison(std::vector<int> groups) : turns(groups) {
+  explicit Comparison(const std::vector<int>& groups) : turns(groups) {
     for (std::size_t variant = 0; variant < groups.size();
          ++variant) { // all take part before any thread gets ahead
       turns.begin(static_cast<int>(variant), {}, stop);

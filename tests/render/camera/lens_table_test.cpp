@@ -34,7 +34,7 @@ TEST(LensTable, TablesThatAreNoLensSayWhy) {
   auto broken = [&](auto change) {
     std::vector<LensInterface> table = good;
     change(table);
-    const std::string problem = lens_problem(table);
+    std::string problem = lens_problem(table);
     if (!problem.empty()) { EXPECT_THROW(LensSystem(table, {}), std::invalid_argument); }
     return problem;
   };

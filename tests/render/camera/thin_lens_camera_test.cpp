@@ -304,7 +304,8 @@ TEST(CameraRender, ALightOutOfFocusHasTheShapeOfTheAperture) {
   for (int y = 0; y < kSize; ++y)
     for (int x = 0; x < kSize; ++x) {
       const vec2 p =
-          vec2(static_cast<float>(x) + 0.5f - kSize / 2, kSize / 2 - static_cast<float>(y) - 0.5f) / radius;
+          vec2(static_cast<float>(x) + 0.5f - 0.5f * kSize, 0.5f * kSize - static_cast<float>(y) - 0.5f) /
+          radius;
       const auto value = static_cast<double>(film.mean(x, y).x);
       // A lens point o looks at the bead along the film position whose point in focus is -o (f - z) / z.
       const bool inside = inside_polygon(-p, kBlades, kRotation, kSlack / radius);

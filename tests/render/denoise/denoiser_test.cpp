@@ -129,7 +129,7 @@ struct Rendered {
   Image noisy;
 };
 
-Rendered render_halves(Document document, int spp) {
+Rendered render_halves(const Document& document, int spp) {
   const FilmSettings& size = document.settings.film;
   auto scene = RenderScene::build(document);
   Film all(size.width, size.height), halves[2] = {all, all};
@@ -196,7 +196,7 @@ TEST(FeatureFilm, DoesNotDependOnThreadsOrPortions) {
   Document document = test::cornell_flush(33, 20, 8, true).document;
   auto scene = RenderScene::build(document);
   std::atomic<bool> stop{false};
-  auto gather = [&](std::vector<std::uint32_t> portions, int threads) {
+  auto gather = [&](const std::vector<std::uint32_t>& portions, int threads) {
     FeatureFilm film(33, 20);
     for (std::uint32_t spp : portions)
       EXPECT_TRUE(render_features(*scene, document, spp, film, stop, threads));

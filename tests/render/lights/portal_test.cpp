@@ -53,8 +53,7 @@ std::vector<LightDesc> described(const std::vector<PortalLightModel>& portals) {
 struct Guided {
   ScenePortals portals;
   Light light;
-  Guided(Light made, const std::vector<PortalLightModel>& models)
-      : portals(described(models)), light(std::move(made)) {
+  Guided(Light made, const std::vector<PortalLightModel>& models) : portals(described(models)), light(made) {
     portals.give(light, nullptr, nullptr);
   }
 };

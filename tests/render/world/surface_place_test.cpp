@@ -134,7 +134,7 @@ Material textured(vec3 factor, TextureUse use, bool emits) {
 }
 
 /// Two rows of two squares in the plane z = 0, from -1 to 1.
-Mesh squares(std::vector<vec3> face_colors) {
+Mesh squares(const std::vector<vec3>& face_colors) {
   Mesh mesh;
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 3; ++x) mesh.positions.emplace_back(x - 1, y - 1, 0);
