@@ -3,9 +3,9 @@
 namespace candela {
 
 EmissionGrid::EmissionGrid(std::span<const float> luminance, std::size_t columns, const Progress* progress)
-    : cells_(luminance, columns, progress), columns_(columns),
-      size_(static_cast<float>(columns),
-            static_cast<float>(static_cast<double>(luminance.size()) / static_cast<double>(columns))) {
+    : cells_(luminance, columns, progress), columns_(columns) {
+  const std::size_t rows = luminance.size() / columns;
+  size_ = vec2(columns, rows);
   const auto n = static_cast<double>(luminance.size());
   double sum = 0, squares = 0;
   for (float l : luminance) {

@@ -35,13 +35,13 @@ vec3 albedo(const OpenPbrValues& v, vec3 wo, double width) {
 }
 
 std::vector<TestedBsdf> open_pbr_models() {
-  std::vector<TestedBsdf> open_pbr_models;
+  std::vector<TestedBsdf> all;
   const auto add = [&](const OpenPbrValues& v) {
     double rough = double(open_pbr::base_roughness(v));
     if (v.coat_weight > 0) rough = std::min(rough, double(v.coat_roughness));
     const double alpha = std::max(rough * rough, 1e-3);
-    open_pbr_models.push_back(tested(fmt::format("open_pbr {}", open_pbr_models.size()), OpenPbr{v},
-                                     std::min(2.0, 2 * alpha), std::max(open_pbr::eta(v), 1.02f)));
+    all.push_back(tested(fmt::format("open_pbr {}", all.size()), OpenPbr{v}, std::min(2.0, 2 * alpha),
+                         std::max(open_pbr::eta(v), 1.02f)));
   };
   add({});
   add({.base_metalness = 1, .specular_color = {0.5f, 0.8f, 1}, .specular_roughness_anisotropy = 0.6f});
@@ -90,7 +90,7 @@ std::vector<TestedBsdf> open_pbr_models() {
        .specular_weight = 0,
        .specular_roughness = 0.5f,
        .transmission_weight = 1});
-  return open_pbr_models;
+  return all;
 }
 
 /// Nothing is absorbed.

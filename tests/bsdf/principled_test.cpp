@@ -28,13 +28,12 @@ void expect_near(vec3 value, vec3 expected, float relative) {
 }
 
 std::vector<TestedBsdf> principled_models() {
-  std::vector<TestedBsdf> principled_models;
+  std::vector<TestedBsdf> all;
   const auto add = [&](PrincipledValues v) {
     // Of the narrowest lobe of any weight.
     const double alpha = v.clearcoat > 0 ? 0.1 : std::max(double(sqr(v.roughness)), 1e-3);
-    principled_models.push_back(
-        tested(fmt::format("{} {}", v.thin ? "sheet" : "solid", principled_models.size()), Principled{v},
-               std::min(2.0, 2 * alpha), v.thin ? 1 : v.eta));
+    all.push_back(tested(fmt::format("{} {}", v.thin ? "sheet" : "solid", all.size()), Principled{v},
+                         std::min(2.0, 2 * alpha), v.thin ? 1 : v.eta));
   };
   for (const PrincipledValues& v : reference_solids()) add(v);
   for (const PrincipledValues& v : reference_sheets()) add(v);
@@ -53,7 +52,7 @@ std::vector<TestedBsdf> principled_models() {
        .flatness = 1,
        .clearcoat = 1});
   add({.base_color = Spectrum(1), .roughness = 1, .spec_trans = 1, .eta = 3, .spec_tint = 1, .thin = true});
-  return principled_models;
+  return all;
 }
 
 TEST(Principled, AsMitsuba) {

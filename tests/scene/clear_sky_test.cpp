@@ -45,7 +45,7 @@ TEST(ClearSky, TheSunIsWhereItWasPutAndSendsAsMuchWhateverItsSize) {
         power += l * solid_angle(image, y);
         center += angles(image, x, y) * l * solid_angle(image, y);
       }
-    EXPECT_NEAR(power, 21, 0.8); // as much as 21 sr of the zenith's luminance_of
+    EXPECT_NEAR(power, 21, 0.8); // as much as 21 sr of the zenith's luminance
     EXPECT_NEAR(center.x / power, elevation, 0.003);
     EXPECT_NEAR(center.y / power, azimuth, 0.003);
   }

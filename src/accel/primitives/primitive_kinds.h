@@ -9,9 +9,8 @@
 // - kLeafCost: of testing a pack, in node visits, for the surface area heuristic.
 // - count, bounds: of the input; empty bounds leave a primitive out.
 // - fill: makes a pack.
-// - intersect: the lanes of a pack that a ray hits with t in (t_min, t_max), and their t; all of them or
-// those
-//   of least t: a template over the SIMD implementation.
+// - intersect: the lanes of a pack that a ray hits with t in (t_min, t_max), and their t; all of them, or
+//   those of least t. A template over the SIMD implementation.
 // - occluded: optional, whether there are any. Without it, intersect is asked.
 // - parameters: Hit::u and v of the lane that is the closest hit.
 // - cut: optional, the boxes of the parts on both sides of a plane. Kinds with it take part in spatial

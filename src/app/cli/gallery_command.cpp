@@ -5,6 +5,7 @@
 #include "app/console/picture_output.h"
 #include "app/console/progress_bar.h"
 #include "app/figures/figure.h"
+#include "app/figures/reference_seed.h"
 #include "app/platform/data_file.h"
 #include "app/platform/streams.h"
 #include "core/error.h"
@@ -26,8 +27,6 @@ namespace {
 
 constexpr int kQuickSize = 2;
 constexpr float kQuickSpp = 1.0f / 16;
-/// The reference has a seed of its own: otherwise its error would be correlated with the panels'.
-constexpr int kGalleryReferenceSeed = 0x5eed;
 
 struct Rendering {
   Image image;
@@ -109,7 +108,7 @@ private:
                           figure.reference->settings.end());
     panel.spp = figure.reference->spp;
     Document document = document_of(figure, panel);
-    document.settings.sampler.seed ^= kGalleryReferenceSeed;
+    document.settings.sampler.seed ^= kReferenceSeed;
     return document;
   }
 

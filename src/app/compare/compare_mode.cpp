@@ -1,5 +1,6 @@
 #include "app/compare/compare_mode.h"
 
+#include "app/figures/reference_seed.h"
 #include "core/error.h"
 #include "io/images/image_file.h"
 
@@ -12,8 +13,6 @@ namespace candela {
 
 namespace {
 
-/// The reference has a seed of its own: otherwise its error would be correlated with the variants'.
-constexpr int kReferenceSeed = 0x5eed;
 /// Limits of the analyses: the least time from one to the next, and their share of a core.
 constexpr double kAnalysisInterval = 0.05, kAnalysisShare = 0.1;
 

@@ -21,7 +21,7 @@ struct DensitySamples {
   int samples = 1000000;
 };
 const Field<DensitySamples> kDensitySamplesField = {
-    {"samples", FieldType::integer, 1, 1e9, "", "DensitySamples to draw"},
+    {"samples", FieldType::integer, 1, 1e9, "", "Samples to draw"},
     [](DensitySamples& o) -> void* { return &o.samples; }};
 
 /// The test's numbers, and the counts next to those expected of the density. They are divided by `measure`, a

@@ -10,8 +10,6 @@ namespace {
 /// Bytes searched between two checks for cancellation.
 constexpr std::size_t kPiece = std::size_t{16} << 20;
 
-bool is_space(char c) { return c == ' ' || c == '\t'; }
-
 } // namespace
 
 TextLines::TextLines(std::string& text, ProgressPart& progress, double share)
@@ -47,7 +45,7 @@ bool TextLines::next() {
     next_ = std::min(end + 1, text_.size());
     if (end < text_.size() && text_[end] == '\r' && next_ < text_.size() && text_[next_] == '\n') ++next_;
     std::size_t last = end;
-    while (last > from && is_space(text_[last - 1])) --last;
+    while (last > from && is_blank(text_[last - 1])) --last;
     const bool continued = last > from && text_[last - 1] == '\\' && next_ < text_.size();
     if (!continued) break;
     std::fill(text_.begin() + static_cast<std::ptrdiff_t>(last - 1),

@@ -8,6 +8,8 @@
 
 namespace candela {
 
+inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
 /// Lines end in LF, CR LF or CR. A backslash at the end continues a line; both are replaced by blanks, so
 /// that columns are those of the file.
 class TextLines {

@@ -1,6 +1,8 @@
 #pragma once
 // The words of a line of an OBJ or MTL file.
 
+#include "io/files/text_lines.h"
+
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -8,8 +10,6 @@
 #include <string_view>
 
 namespace candela {
-
-inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
 /// Removes the first word from `rest` and returns it; empty at the end of the line.
 inline std::string_view next_word(std::string_view& rest) {
