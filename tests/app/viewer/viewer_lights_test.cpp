@@ -88,6 +88,7 @@ TEST(ViewerLightsUi, GroupsAreNamedSwitchedAndScaled) {
   const double whole = brightness();
   const std::uint64_t restarts = hand.state().status.restarts;
   auto same_samples = [&] {
+    hand.wait_for_picture(); // an edit restarts when the render thread takes it
     return hand.state().status.restarts == restarts && hand.state().status.spp >= 1;
   };
   hand.click("light_group.0.on");
