@@ -21,24 +21,39 @@ inline float scaled_bessel_i0(float x) {
   return std::exp(-x) * sum;
 }
 
+/// 1 - exp(-x), x > 0; for x > 1 without the slower expm1.
+inline float one_minus_exp(float x) { return x > 1 ? 1 - std::exp(-x) : -std::expm1(-x); }
+
 /// Density over longitudinal angles, by sine and cosine on both sides: the integral of M cos(theta_i) d
 /// theta_i is 1, its variance v (d'Eon et al. 2011, "An Energy-Conserving Hair Reflectance Model"),
 ///     M = exp(-sin_i sin_o / v) I0(cos_i cos_o / v) / (2 v sinh(1 / v)),
 /// with the large exponents taken out: their sum is (cos(theta_i + theta_o) - 1) / v.
-inline float hair_longitudinal(float cos_i, float sin_i, float cos_o, float sin_o, float v) {
-  const float distance2 = sqr(cos_i - cos_o) + sqr(sin_i + sin_o); // 2 - 2 cos(theta_i + theta_o)
-  return std::exp(-0.5f * distance2 / v) * scaled_bessel_i0(cos_i * cos_o / v) / (-v * std::expm1(-2 / v));
-}
+struct HairLongitudinal {
+  float inverse_v = 0, scale = 0;
 
-/// Logistic distribution of scale s, cut off at +-pi: Chiang et al. 2016.
-inline float hair_azimuthal(float angle, float s) {
-  const float x = std::exp(-std::abs(angle) / s);
-  return x / (s * sqr(1 + x) * std::tanh(0.5f * kPi / s));
-}
-/// Its distribution function is (1 + tanh(x / 2s) / tanh(pi / 2s)) / 2.
-inline float sample_hair_azimuthal(float u, float s) {
-  return std::clamp(2 * s * std::atanh((2 * u - 1) * std::tanh(0.5f * kPi / s)), -kPi, kPi);
-}
+  HairLongitudinal() = default;
+  explicit HairLongitudinal(float v) : inverse_v(1 / v), scale(inverse_v / one_minus_exp(2 * inverse_v)) {}
+  float density(float cos_i, float sin_i, float cos_o, float sin_o) const {
+    const float distance2 = sqr(cos_i - cos_o) + sqr(sin_i + sin_o); // 2 - 2 cos(theta_i + theta_o)
+    return scale * std::exp(-0.5f * distance2 * inverse_v) * scaled_bessel_i0(cos_i * cos_o * inverse_v);
+  }
+};
+
+/// Logistic distribution of scale s, cut off at +-pi: Chiang et al. 2016. Its distribution function is
+/// (1 + tanh(x / 2s) / tanh(pi / 2s)) / 2.
+struct HairAzimuthal {
+  float s = 1, limit = 1; ///< limit: tanh(pi / 2s)
+
+  HairAzimuthal() = default;
+  explicit HairAzimuthal(float scale) : s(scale), limit(std::tanh(0.5f * kPi / scale)) {}
+  /// Of any angle, which is taken modulo 2 pi.
+  float density(float angle) const {
+    angle -= 2 * kPi * std::nearbyint(angle * (0.5f * kInvPi));
+    const float x = std::exp(-std::abs(angle) / s);
+    return x / (s * sqr(1 + x) * limit);
+  }
+  float sample(float u) const { return std::clamp(2 * s * std::atanh((2 * u - 1) * limit), -kPi, kPi); }
+};
 
 /// The lobes of a hair (bsdf/hair.h) for one wo.
 class HairLobes {
@@ -55,8 +70,9 @@ public:
     // paths through the fibre are narrower, those with internal reflections wider).
     const float m = std::max(beta_m, 0.0f);
     const float v = sqr(0.726f * m + 0.812f * sqr(m) + 3.7f * power(m, 20));
-    variance_ = {v, 0.25f * v, 4 * v, 4 * v};
-    scale_ = kSqrtPiOver8 * (0.265f * beta_n + 1.194f * sqr(beta_n) + 5.372f * power(beta_n, 22));
+    longitudinal_ = {HairLongitudinal(v), HairLongitudinal(0.25f * v), HairLongitudinal(4 * v)};
+    azimuthal_ =
+        HairAzimuthal(kSqrtPiOver8 * (0.265f * beta_n + 1.194f * sqr(beta_n) + 5.372f * power(beta_n, 22)));
 
     // The scales turn wo's angle by -2 tilt for R, by tilt for TT and by 4 tilt for TRT (Marschner, Jensen,
     // Cammarano, Worley & Hanrahan 2003, "Light Scattering from Human Hair Fibers"). A cone that is turned
@@ -75,9 +91,8 @@ public:
     BsdfEval e{Spectrum(0), 0};
     for (std::size_t p = 0; p < kLobes; ++p) {
       if (!(choice_[p] > 0)) continue;
-      float density = hair_longitudinal(cos_i, wi.x, cos_cone_[p], sin_cone_[p], variance_[p]);
-      density *= p < kLobes - 1 ? hair_azimuthal(std::remainder(azimuth - turn_[p], 2 * kPi), scale_)
-                                : 0.5f * kInvPi;
+      float density = longitudinal(p).density(cos_i, wi.x, cos_cone_[p], sin_cone_[p]);
+      density *= p < kLobes - 1 ? azimuthal_.density(azimuth - turn_[p]) : 0.5f * kInvPi;
       e.f_cos += attenuation_[p] * density;
       e.pdf += choice_[p] * density;
     }
@@ -94,14 +109,16 @@ public:
 
     // Around the cone's direction (sin_cone, cos_cone): d'Eon, Marschner & Hanika 2013, "Importance Sampling
     // for Physically-Based Hair Fiber Models".
-    const float v = variance_[p], radius2 = std::min(glm::dot(u.disc, u.disc), 1.0f);
-    const float off = std::min(-v * std::log(radius2 + (1 - radius2) * std::exp(-2 / v)), 2.0f); // 1 - cos
+    const HairLongitudinal& m = longitudinal(p);
+    const float radius2 = std::min(glm::dot(u.disc, u.disc), 1.0f);
+    const float off = std::min(-std::log(radius2 + (1 - radius2) * std::exp(-2 * m.inverse_v)) / m.inverse_v,
+                               2.0f); // 1 - cos
     const float sine = safe_sqrt(off * (2 - off));
     const float cos_turn = radius2 > 0 ? u.disc.x / std::sqrt(radius2) : 1;
     const float sin_i = std::clamp(-(1 - off) * sin_cone_[p] + sine * cos_turn * cos_cone_[p], -1.0f, 1.0f);
     const float cos_i = safe_sqrt(1 - sqr(sin_i));
 
-    const float azimuth = p < kLobes - 1 ? turn_[p] + sample_hair_azimuthal(rest, scale_) : 2 * kPi * rest;
+    const float azimuth = p < kLobes - 1 ? turn_[p] + azimuthal_.sample(rest) : 2 * kPi * rest;
     const float c = std::cos(azimuth), s = std::sin(azimuth);
     return vec3(sin_i, cos_i * (axis_.x * c - axis_.y * s), cos_i * (axis_.y * c + axis_.x * s));
   }
@@ -111,6 +128,11 @@ public:
 
 private:
   static constexpr float kSqrtPiOver8 = 0.62665706865775f;
+
+  /// M_p: the paths with more reflections have that of TRT.
+  const HairLongitudinal& longitudinal(std::size_t p) const {
+    return longitudinal_[std::min(p, longitudinal_.size() - 1)];
+  }
 
   static float power(float x, int n) {
     float y = 1;
@@ -146,9 +168,10 @@ private:
 
   float cos_o_;     ///< of the angle to the plane across the fibre
   vec2 axis_{0, 1}; ///< wo's direction in that plane
-  float scale_;     ///< of the azimuth's distribution
+  HairAzimuthal azimuthal_;
+  std::array<HairLongitudinal, kLobes - 1> longitudinal_;
   std::array<Spectrum, kLobes> attenuation_;
-  std::array<float, kLobes> choice_, variance_, sin_cone_, cos_cone_;
+  std::array<float, kLobes> choice_, sin_cone_, cos_cone_;
   std::array<float, kLobes - 1> turn_; ///< of the azimuth, from wo's
 };
 

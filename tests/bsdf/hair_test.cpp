@@ -149,7 +149,8 @@ TEST(HairLobes, BesselFunction) {
 TEST(HairLobes, EachIsADensity) {
   for (const double beta : {0.02, 0.1, 0.3, 0.6, 1.0}) {
     const double v = std::pow(0.726 * beta + 0.812 * beta * beta + 3.7 * std::pow(beta, 20), 2);
-    for (const double variance : {v / 4, 4 * v})
+    for (const double variance : {v / 4, 4 * v}) {
+      const HairLongitudinal longitudinal{float(variance)};
       for (const double theta : {0.0, 0.7, -1.3, 1.57}) {
         // About the peak, in its width.
         double sum = 0;
@@ -158,20 +159,28 @@ TEST(HairLobes, EachIsADensity) {
         for (int i = 0; i < kSteps; ++i) {
           const double at = -theta - reach + (i + 0.5) * step;
           if (std::abs(at) > kTau / 4) continue;
-          sum += double(hair_longitudinal(float(std::cos(at)), float(std::sin(at)), float(std::cos(theta)),
-                                          float(std::sin(theta)), float(variance))) *
+          sum += double(longitudinal.density(float(std::cos(at)), float(std::sin(at)), float(std::cos(theta)),
+                                             float(std::sin(theta)))) *
                  std::cos(at) * step;
         }
         EXPECT_NEAR(sum, 1, 3e-4) << beta << ' ' << variance << ' ' << theta;
       }
+    }
     const double s = std::sqrt(kTau / 16) * (0.265 * beta + 1.194 * beta * beta + 5.372 * std::pow(beta, 22));
+    const HairAzimuthal azimuthal{float(s)};
     double sum = 0;
     for (double x = -kTau / 2, step = kTau / 100000; x < kTau / 2; x += step)
-      sum += double(hair_azimuthal(float(x + 0.5 * step), float(s))) * step;
+      sum += double(azimuthal.density(float(x + 0.5 * step))) * step;
     EXPECT_NEAR(sum, 1, 1e-4) << beta;
+    // Of float angles, which are rounded by up to 1e-6 each; so is the product of turns and 2 pi.
+    const double angle = std::min(3 * s, 2.0);
+    for (const double turns : {-2.0, 1.0, 3.0})
+      EXPECT_NEAR(double(azimuthal.density(float(angle + turns * kTau)) / azimuthal.density(float(angle))), 1,
+                  3e-6 / s)
+          << beta << ' ' << turns;
     // Its samples have its distribution function.
     for (const double u : {0.001, 0.1, 0.3, 0.5, 0.77, 0.999}) {
-      const double x = double(sample_hair_azimuthal(float(u), float(s)));
+      const double x = double(azimuthal.sample(float(u)));
       auto cdf = [&](double at) { return 1 / (1 + std::exp(-at / s)); };
       EXPECT_NEAR((cdf(x) - cdf(-kTau / 2)) / (cdf(kTau / 2) - cdf(-kTau / 2)), u, 2e-6) << beta;
     }

@@ -14,29 +14,31 @@ struct Across {
   }
 };
 
-/// The root of f in [a, b], where f(a) < 0 < f(b): regula falsi (the Illinois variant), with a bisection
-/// wherever three steps have not halved the bracket.
+/// The root of f in (a, b), where f(a) < 0 < f(b): secants from u, where f is `value`, with a bisection
+/// wherever a step leaves the bracket, or two steps have not halved their length (after Brent 1973,
+/// "Algorithms for Minimization without Derivatives", chapter 4). The last step is shorter than `tolerance`.
 template <class F>
-double root_between(F f, double a, double fa, double b, double fb, double tolerance = 1e-11) {
-  double width = b - a;
-  for (int step = 1; step < 120 && b - a > tolerance; ++step) {
-    double middle = (a * fb - b * fa) / (fb - fa);
-    if (step % 3 == 0) {
-      if (b - a > 0.5 * width) middle = 0.5 * (a + b);
-      width = b - a;
-    }
-    if (!(middle > a && middle < b)) middle = 0.5 * (a + b);
-    const double value = f(middle);
-    if (value == 0) return middle;
-    if (value < 0) {
-      a = middle, fa = value;
-      fb *= 0.5;
-    } else {
-      b = middle, fb = value;
-      fa *= 0.5;
-    }
+double root_between(F f, double a, double fa, double b, double fb, double u, double value, double tolerance) {
+  double before = -fa < fb ? a : b, f_before = -fa < fb ? fa : fb;
+  double step = b - a, step_before = step;
+  constexpr int kMost = 120;
+  for (int i = 0; value != 0 && i < kMost; ++i, value = f(u)) {
+    (value < 0 ? a : b) = u;
+    double next = u - value * (u - before) / (value - f_before);
+    if (!(next > a && next < b && std::abs(next - u) <= 0.5 * step_before)) next = 0.5 * (a + b);
+    before = u, f_before = value;
+    step_before = step, step = std::abs(next - u);
+    u = next;
+    if (step <= tolerance) break;
   }
-  return 0.5 * (a + b);
+  return u;
+}
+
+/// The same from the root of the chord, to 1e-9.
+template <class F>
+double root_between(F f, double a, double fa, double b, double fb) {
+  const double u = (a * fb - b * fa) / (fb - fa);
+  return root_between(f, a, fa, b, fb, u, f(u), 1e-9);
 }
 
 /// A segment as a ray sees it: x and y across the ray, z along it, the radius in w.
@@ -160,10 +162,11 @@ private:
     double ga = nearing(a), gb = nearing(b);
     if (ga >= 0) return a;
     if (gb <= 0) return b;
-    constexpr double kNarrow = 1e-6; // the rest is for nearest_point()
-    constexpr double kBent = 0.01;   // straight pieces are bent by a thousandth of their radius
+    constexpr double kNarrow = 1e-6;   // the rest is for nearest_point()
+    constexpr double kBent = 0.01;     // straight pieces are bent by a thousandth of their radius
+    double weight_a = 1, weight_b = 1; // halved for an end that stays (the Illinois variant of regula falsi)
     while (b.u - a.u > kNarrow) {
-      const double u = (a.u * gb - b.u * ga) / (gb - ga);
+      const double ya = weight_a * ga, yb = weight_b * gb, u = (a.u * yb - b.u * ya) / (yb - ya);
       if (!(u > a.u && u < b.u)) break;
       const Point q = at(u);
       if (q.discriminant() >= 0) return q;
@@ -174,12 +177,13 @@ private:
       const double meet =
           (-other.discriminant() - miss - 2 * g_other * (other.u - q.u)) / (2 * (g - g_other)); // from q.u
       if (miss + 2 * g * meet > kBent * (q.p.w * q.p.w + miss)) return q;
-      const double before = b.u - a.u;
-      if (g < 0)
-        a = q, ga = g;
-      else
-        b = q, gb = g;
-      if (b.u - a.u > 0.5 * before) break; // one end stays: slow
+      if (g < 0) {
+        a = q, ga = g, weight_a = 1;
+        weight_b *= 0.5;
+      } else {
+        b = q, gb = g, weight_b = 1;
+        weight_a *= 0.5;
+      }
     }
     return nearest_point(a, b);
   }
@@ -205,6 +209,7 @@ private:
 
   void add_tube_hit(Point a, Point b) {
     const Point near = met_point(a, b);
+    if (is_behind(near)) return;
     const double da = a.discriminant(), db = b.discriminant();
     if (!(near.discriminant() >= 0 || da >= 0 || db >= 0)) return;
     // A piece that is only almost straight may pass the ray by at two places: s begins where D is 0 between a
@@ -227,10 +232,27 @@ private:
       else
         hi = near.u, f_hi = f;
     }
+    double u = straight_entry(near);
+    if (!(u > lo && u < hi)) u = (lo * f_hi - hi * f_lo) / (f_hi - f_lo);
+    const Point first = at(u);
+    if (is_behind(first)) return;
     // A root of s', so that s is off by the square of that; u becomes a float.
-    constexpr double kTolerance = 1e-8;
-    const auto f = [this](double u) { return entering(at(u)); };
-    add_entry(at(root_between(f, lo, f_lo, hi, f_hi, kTolerance)));
+    constexpr double kTolerance = 1e-7;
+    const auto f = [this](double v) { return entering(at(v)); };
+    add_entry(at(root_between(f, lo, f_lo, hi, f_hi, u, entering(first), kTolerance)));
+  }
+  /// Whether the ray begins beyond its entry into the ball at q. Then it begins beyond the least value of
+  /// s, too: it leaves the tube.
+  bool is_behind(const Point& q) const {
+    const double d = q.discriminant();
+    return d >= 0 && q.p.z - std::sqrt(d) < nearest_;
+  }
+  /// Where the ray enters a straight tube (or cone) that is the piece's tangent at q: with D(q.u + h) =
+  /// D - 2 G h - k h^2, k = |v|^2 - r'^2, the root of z' sqrt(D) - D'/2.
+  double straight_entry(const Point& q) const {
+    const double g = nearing(q), k = q.d.x * q.d.x + q.d.y * q.d.y - q.d.w * q.d.w;
+    const double middle = -g / k, greatest = q.discriminant() + g * g / k; // of D
+    return q.u + middle - q.d.z * std::sqrt(greatest / (k * (k + q.d.z * q.d.z)));
   }
   void add_entry(const Point& q) {
     const double d = q.discriminant();

@@ -9,12 +9,13 @@
 // as many threads; the renders alternate, so that disturbances affect both. Seconds are for rendering only,
 // the least of all seeds; relMSE comes from pairs of seeds, relative to the same image (the mean of all
 // renders of both); eff = 1 / (relMSE x seconds). --short is for tests: small pictures and few samples,
-// without meaningful times. --keep keeps the pictures and blender's output. Exits with 1 if the means differ
-// by more than noise and tolerances allow.
+// without meaningful times. --keep keeps the pictures, blender's output and the scene (candela.json).
+// Exits with 1 if the means differ by more than noise and tolerances allow.
 
 #include "core/error.h"
 #include "imaging/display_transform.h"
 #include "io/images/image_file.h"
+#include "io/scene_export.h"
 #include "session/offline_render.h"
 #include "support/scratch_folder.h"
 #include "versus_cycles/cycles.h"
@@ -125,6 +126,7 @@ bool compare(VersusScene scene, const std::string& blender, const std::string& f
   scene.document.settings.stop.spp = spp;
   std::filesystem::create_directories(folder);
   write_cycles_scene(scene.document, folder);
+  if (!o.keep.empty()) export_candela_json(scene.document, folder + "/candela.json");
   Cycles cycles(blender, folder, o.threads, o.cycles_settings);
   OfflineOptions options;
   options.pass.threads = o.threads;
