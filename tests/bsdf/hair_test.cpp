@@ -324,9 +324,11 @@ TEST(Hair, OffsetOfARoundFibre) {
 
 TEST(Hair, AbsorptionOfPigmentsAndColours) {
   const Spectrum brown = Hair::absorption_of_melanin(1.3f, 0), red = Hair::absorption_of_melanin(0, 2);
-  EXPECT_NEAR(brown.x, 1.3 * 0.419, 1e-6);
-  EXPECT_NEAR(brown.z, 1.3 * 1.37, 1e-6);
-  EXPECT_NEAR(red.y, 0.8, 1e-6);
+  const double eumelanin[] = {0.419, 0.697, 1.37}, pheomelanin[] = {0.187, 0.4, 1.05}; // d'Eon et al. 2011
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(brown[c], 1.3 * eumelanin[c], 1e-6);
+    EXPECT_NEAR(red[c], 2 * pheomelanin[c], 1e-6);
+  }
   // pbrt-v4's HairBxDF::SigmaAFromReflectance at beta_n = 0.3: (ln c / 5.9088...)^2.
   const double b = 0.3;
   const double fit = 5.969 - 0.215 * b + 2.532 * std::pow(b, 2) - 10.73 * std::pow(b, 3) +

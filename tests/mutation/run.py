@@ -51,20 +51,35 @@ class Programs:
             self.commands[target] = ninja_commands(self.build, target)
         return self.commands[target]
 
-    def compile_command(self, target, source, overlay, output):
+    def compiled_as(self, target, source):
+        """The words of the command that compiles the source, and the unity file that it is part of, or None."""
+        files = {}
         for line in self.of(target):
             words = shlex.split(line)
-            if "-c" in words and words[words.index("-c") + 1] == source["stands"]:
-                break
-        else:
-            raise Failure(f"{source['stands']} is not part of {target}")
+            if "-c" in words:
+                files[words[words.index("-c") + 1]] = words
+        if source in files:
+            return files[source], None
+        for unity, words in files.items():
+            if "/Unity/" in unity and f'#include "{source}"' in open(unity, encoding="utf-8").read():
+                return words, unity
+        raise Failure(f"{source} is not part of {target}")
+
+    def compile_command(self, target, source, overlay, output):
+        words, unity = self.compiled_as(target, source["stands"])
+        read = source["read"]
+        if unity and read != source["stands"]:
+            # The rest of the unity file with it, for its object stands in for the whole one.
+            read = os.path.join(overlay, "unity.cxx")
+            with open(unity, encoding="utf-8") as whole, open(read, "w", encoding="utf-8") as changed:
+                changed.write(whole.read().replace(f'"{source["stands"]}"', f'"{source["read"]}"'))
         words = words[:words.index("-c")]
         for option in ("-MT", "-MF", "-o"):
             at = words.index(option)
             del words[at:at + 2]
         words.remove("-MD")
         first = next(i for i, word in enumerate(words) if word.startswith("-"))
-        return words[:first] + ["-I" + overlay] + words[first:] + ["-c", source["read"], "-o", output]
+        return words[:first] + ["-I" + overlay] + words[first:] + ["-c", read, "-o", output]
 
     def link_command(self, target, objects, output):
         line = self.of(target)[-1]
