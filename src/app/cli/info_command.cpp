@@ -2,6 +2,7 @@
 
 #include "app/platform/streams.h"
 #include "render/world/render_scene.h"
+#include "scene/light_group.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -114,6 +115,7 @@ int run_info(const SceneOptions& options) {
     count = count.is_null() ? 1 : count.get<int>() + 1;
   }
   out["lights"] = lights;
+  out["light_groups"] = light_group_names(desc);
   out["camera"] = camera_json(loaded.document);
   out["bookmarks"] = nlohmann::ordered_json::array();
   for (const Bookmark& bookmark : desc.bookmarks) out["bookmarks"].push_back(bookmark.name);

@@ -34,7 +34,7 @@ using test::Outcome;
 using CliTest = test::ProgramTest;
 
 TEST_F(CliTest, LooksThroughABookmark) {
-  std::ofstream(path("views.json")) << R"({"candela": 1, "lights": [{"type": "constant"}],
+  std::ofstream(path("views.json")) << R"({"candela": 1, "lights": [{"type": "constant", "group": "sky"}],
     "instances": [{"shape": "sphere"}], "settings": {"view": "depth", "film": {"width": 9, "height": 9}},
     "bookmarks": [{"name": "near", "camera": {"position": [0, 0, 3]}},
                   {"name": "far off", "camera": {"position": [0, 0, 30], "vertical_fov": 4}}]})";
@@ -52,6 +52,7 @@ TEST_F(CliTest, LooksThroughABookmark) {
   const Outcome info = run("info views.json --bookmark 'far off'");
   EXPECT_EQ(nlohmann::json::parse(info.out)["camera"]["position"][2], 30);
   EXPECT_EQ(nlohmann::json::parse(info.out)["bookmarks"], (nlohmann::json{"near", "far off"}));
+  EXPECT_EQ(nlohmann::json::parse(info.out)["light_groups"], nlohmann::json::array({"sky"}));
 }
 
 TEST_F(CliTest, RendersTheSameBytesWithAnyNumberOfThreads) {

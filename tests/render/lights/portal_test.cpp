@@ -160,6 +160,42 @@ TEST(Portal, DensityFollowsTheSkyWithinAndIsNothingBeside) {
   EXPECT_EQ(guide.seen_from({ctx.position, portal.axes.outwards * -1.0f}).sum, 0) << "behind the surface";
 }
 
+/// Windows that begin and end within cells: each cell gets its share of the samples.
+TEST(PortalStatistical, ChartsAreSampledBetweenTheirCells) {
+  SCOPED_TRACE(seed_note());
+  constexpr int kSide = 8;
+  // Bright on the left of the third row, and on the right of the next.
+  const auto sky = [](vec3 d) {
+    const vec2 t = vec2(d) / -d.z;
+    return Spectrum((t.y < -1 / 3.0f) == (t.x < 0) ? 5 : 1);
+  };
+  const PortalChart chart({}, kSide, 1, sky);
+  auto tangents = [](glm::dvec2 cell) {
+    const glm::dvec2 at = 2.0 * cell / double(kSide) - 1.0;
+    return at / (1.0 - glm::abs(at));
+  };
+  const glm::dvec2 lo(1.2, 2.3), hi(6.7, 3.6);
+  const PortalChart::Window window = chart.window(tangents(lo), tangents(hi));
+  std::vector<double> expected, observed(std::size_t{kSide} * kSide);
+  constexpr int kCount = 40000;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) {
+      const glm::dvec2 corner(x, y), within = glm::min(hi, corner + 1.0) - glm::max(lo, corner);
+      const double share = std::max(within.x, 0.0) * std::max(within.y, 0.0);
+      expected.push_back(share > 0 ? kCount * share / window.sum *
+                                         chart.window(tangents(corner), tangents(corner + 1.0)).sum
+                                   : 0);
+    }
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::uint64_t h = hash_combine(fresh_seed() + 1, i);
+    const vec2 u(to_unit_float(static_cast<std::uint32_t>(h >> 32)),
+                 to_unit_float(static_cast<std::uint32_t>(h)));
+    const glm::dvec2 cell = chart.sample(window, u).place.cell;
+    ++observed[static_cast<std::size_t>(cell.y) * kSide + static_cast<std::size_t>(cell.x)];
+  }
+  EXPECT_GT(chi_square_test(observed, expected).p_value, 1e-6);
+}
+
 /// What lights a room.
 LightDesc surroundings(std::string_view what) {
   LightDesc light;
