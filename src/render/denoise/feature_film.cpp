@@ -58,14 +58,14 @@ public:
       Bsdf bsdf =
           material.textured != nullptr ? evaluate_bsdf(material, texture_at(), blends) : material.bsdf;
       set_outside(scene_, material, passage.media, outside, bsdf);
-      Basis frame = Basis::from_normal(surface.shading_normal);
+      const vec3 normal = shading_normal_at(material, scene_, ray, hit, surface, cone);
+      Basis frame = Basis::from_normal(normal);
       vec3 wo_local = frame.to_local(wo);
       // Lamps are told from what is around them by a reflectance in [0, 1], however bright they are.
       vec3 emission = emission_at(material, texture_at);
       emission /= 1 + max_component(emission);
       seen.albedo = tint * (bsdf_albedo(bsdf) + emission);
-      seen.normal =
-          glm::dot(surface.geometric_normal, wo) < 0 ? -surface.shading_normal : surface.shading_normal;
+      seen.normal = outside ? normal : -normal;
       seen.position = (surface.position - center_) / extent_;
       if (depth > kMaxSpecular || bsdf_delta_probability(bsdf, wo_local) < kSpecular) return seen;
       vec2 u = sampler.get_2d(Dimension::bsdf_direction);

@@ -35,11 +35,11 @@ Spectrum first_hit_value(const RenderScene& scene, Ray ray, const MediumStack& m
                                  scene.has_priorities() ? &passage : nullptr, cone))
     return vec3(0);
   SurfaceInteraction surface = scene.geometry().surface(ray, hit);
+  const bool outside = glm::dot(surface.geometric_normal, ray.direction) < 0;
+  const SurfaceMaterial& material = facing(scene.material(surface.material), outside);
   auto uv = [&] { return scene.geometry().uv(ray, hit); };
   switch (view) {
   case View::albedo: {
-    const bool outside = glm::dot(surface.geometric_normal, ray.direction) < 0;
-    const SurfaceMaterial& material = facing(scene.material(surface.material), outside);
     BlendArena blends;
     Bsdf bsdf =
         material.textured
@@ -48,7 +48,8 @@ Spectrum first_hit_value(const RenderScene& scene, Ray ray, const MediumStack& m
     set_outside(scene, material, passage.media, outside, bsdf);
     return bsdf_albedo(bsdf);
   }
-  case View::normal: return towards_viewer(surface.shading_normal, surface, ray);
+  case View::normal:
+    return towards_viewer(shading_normal_at(material, scene, ray, hit, surface, cone), surface, ray);
   case View::geometric_normal: return towards_viewer(surface.geometric_normal, surface, ray);
   case View::depth: return vec3(glm::dot(surface.position - origin, forward));
   case View::uv: return vec3(uv() - glm::floor(uv()), 0);

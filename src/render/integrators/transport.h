@@ -131,10 +131,8 @@ struct Vertex {
         material(
             &facing(scene.material(surface.material), glm::dot(ray.direction, surface.geometric_normal) < 0)),
         wo(-ray.direction), side(glm::dot(wo, surface.geometric_normal)),
-        frame(Basis::from_normal(visible_normal(material->has_relief()
-                                                    ? relief_normal(*material, scene, ray, hit, surface)
-                                                    : surface.shading_normal,
-                                                wo, side))),
+        frame(Basis::from_normal(
+            visible_normal(shading_normal_at(*material, scene, ray, hit, surface), wo, side))),
         wo_local(frame.to_local(wo)), light_context{surface.position, side > 0 ? surface.geometric_normal
                                                                                : -surface.geometric_normal},
         time(ray.time) {}

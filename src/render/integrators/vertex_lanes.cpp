@@ -99,9 +99,7 @@ void VertexLanes::set(const RenderScene& scene, std::span<const Ray* const> rays
     position_error.set(i, s.position_error);
     geometric_normal.set(i, s.geometric_normal);
     const ConeOfRay* relief_cone = cones.empty() ? nullptr : cones[i];
-    normal.set(i, material[i]->has_relief()
-                      ? relief_normal(*material[i], scene, *rays[i], hits[i], s, relief_cone)
-                      : s.shading_normal);
+    normal.set(i, shading_normal_at(*material[i], scene, *rays[i], hits[i], s, relief_cone));
     if (material[i]->textured == nullptr) continue;
     const ConeOfRay* cone = !cones.empty() && material[i]->textured->is_filtered ? cones[i] : nullptr;
     varying[i] = evaluate_bsdf(

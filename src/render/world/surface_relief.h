@@ -12,6 +12,14 @@ namespace candela {
 vec3 relief_normal(const SurfaceMaterial& material, const RenderScene& scene, const Ray& ray, const Hit& hit,
                    const SurfaceInteraction& surface, const ConeOfRay* cone = nullptr);
 
+/// The shading normal of a hit: that, where the material has one; else the surface's own.
+inline vec3 shading_normal_at(const SurfaceMaterial& material, const RenderScene& scene, const Ray& ray,
+                              const Hit& hit, const SurfaceInteraction& surface,
+                              const ConeOfRay* cone = nullptr) {
+  return material.has_relief() ? relief_normal(material, scene, ray, hit, surface, cone)
+                               : surface.shading_normal;
+}
+
 /// Tells an anisotropic closure where dp/du lies in the local frame (Basis::from_normal) about the normal,
 /// and that of a fibre where across it a curve was met.
 void orient_bsdf(Bsdf& bsdf, const Geometry& geometry, const Ray& ray, const Hit& hit, vec3 normal);

@@ -1,5 +1,6 @@
 // Normal maps, bump maps and the orientation of anisotropic closures, in pictures of one pixel.
 
+#include "render/denoise/feature_film.h"
 #include "render/render_testing.h"
 #include "support/textures.h"
 
@@ -86,9 +87,20 @@ TEST(SurfaceRelief, NormalMapsTilt) {
   const vec3 light(0.7f, 2, 0.4f), x(2, 0, 0), y(0, 0, -2); // x cross y: +y
   const Document d =
       pixel_scene(m, x, y, {0.1f, 3, 0.2f}, light, picture_texture(1, 1, {rgb[0], rgb[1], rgb[2]}));
-  const float expected = lit(n.x * vec3(1, 0, 0) + n.y * vec3(0, 0, -1) + n.z * vec3(0, 1, 0), light);
+  const vec3 tilted = n.x * vec3(1, 0, 0) + n.y * vec3(0, 0, -1) + n.z * vec3(0, 1, 0);
+  const float expected = lit(tilted, light);
   for (const Integrator integrator : kIntegrators)
     EXPECT_NEAR(pixel(d, integrator), expected, 2e-3f * expected);
+
+  Document seen = d;
+  seen.settings.view = View::normal;
+  EXPECT_LT(glm::distance(render(seen).mean(0, 0), 0.5f * tilted + 0.5f), 1e-3f);
+  FeatureFilm features(1, 1); // what denoisers are told
+  const std::atomic<bool> stop{false};
+  ASSERT_TRUE(render_features(*RenderScene::build(d), d, 4, features, stop));
+  NoisyImage albedo, normal, position;
+  features.resolve(albedo, normal, position);
+  EXPECT_LT(glm::distance(normal.half[0].pixels.at(0), tilted), 1e-3f);
 }
 
 TEST(SurfaceRelief, AFlatMapChangesNothing) {
