@@ -206,5 +206,21 @@ TEST(Mirror, IdealReflection) {
   EXPECT_FLOAT_EQ((Mirror{vec3(0.6f), vec3(0.2f)}.delta_probability({0, 0, 1})), 0.75f);
 }
 
+TEST(Mirror, ALobeIsWeightedByTheProbabilityOfItsChoice) {
+  const Mirror mirror{vec3(0.5f, 0.6f, 0.7f), vec3(0.3f, 0.2f, 0.1f)};
+  const vec3 wo = glm::normalize(vec3(0.3f, -0.2f, 0.8f));
+  const float p = luminance(mirror.specular) / luminance(mirror.albedo());
+  EXPECT_FLOAT_EQ(mirror.delta_probability(wo), p);
+  for (const float lobe : {0.0f, 0.5f * p, 0.99f * p, 1.01f * p, 0.99f}) {
+    const auto s = mirror.sample(wo, vec3(0.2f, 0.7f, lobe));
+    ASSERT_TRUE(s);
+    EXPECT_EQ(s->delta, lobe < p);
+    const vec3 sent = s->weight * (s->delta ? p : 1 - p),
+               expected = s->delta ? mirror.specular : mirror.diffuse;
+    EXPECT_LT(glm::distance(sent, expected), 1e-6f) << lobe;
+    EXPECT_FLOAT_EQ(s->pdf, s->delta ? p : mirror.pdf(wo, s->wi));
+  }
+}
+
 } // namespace
 } // namespace candela::test
