@@ -4,6 +4,7 @@
 //   cmake --build --preset release --target scene_data
 
 #include "core/math.h"
+#include "json_rows.h"
 
 #include <fmt/format.h>
 #include <fmt/os.h>
@@ -82,25 +83,13 @@ struct Surface {
   }
 
   static std::string list(const char* key, const std::vector<vec3>& values) {
-    std::string out = fmt::format("      \"{}\": [", key);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      out += fmt::format("{}[{:.5f}, {:.5f}, {:.5f}]",
-                         i == 0  ? ""
-                         : i % 4 ? ", "
-                                 : ",\n        ",
-                         values[i].x, values[i].y, values[i].z);
-    return out + "]";
+    return json_rows(key, values, 4,
+                     [](vec3 v) { return fmt::format("[{:.5f}, {:.5f}, {:.5f}]", v.x, v.y, v.z); });
   }
   std::string json() const {
-    std::string out =
-        list("positions", positions) + ",\n" + list("normals", normals) + ",\n      \"triangles\": [";
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-      out += fmt::format("{}[{}, {}, {}]",
-                         i == 0  ? ""
-                         : i % 8 ? ", "
-                                 : ",\n        ",
-                         triangles[i].x, triangles[i].y, triangles[i].z);
-    return out + "]";
+    return list("positions", positions) + ",\n" + list("normals", normals) + ",\n" +
+           json_rows("triangles", triangles, 8,
+                     [](candela::uvec3 t) { return fmt::format("[{}, {}, {}]", t.x, t.y, t.z); });
   }
 };
 

@@ -4,6 +4,7 @@
 //   cmake --build --preset release --target scene_data
 
 #include "core/math.h"
+#include "json_rows.h"
 
 #include <fmt/format.h>
 #include <fmt/os.h>
@@ -102,33 +103,15 @@ struct Grid {
   }
 
   static std::string list(const char* key, const std::vector<vec3>& points) {
-    std::string out = fmt::format("      \"{}\": [", key);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      out += fmt::format("{}[{:.4f}, {:.4f}, {:.4f}]",
-                         i == 0  ? ""
-                         : i % 4 ? ", "
-                                 : ",\n        ",
-                         points[i].x, points[i].y, points[i].z);
-    return out + "]";
+    return json_rows(key, points, 4,
+                     [](vec3 p) { return fmt::format("[{:.4f}, {:.4f}, {:.4f}]", p.x, p.y, p.z); });
   }
   std::string json(bool deforms) const {
-    std::string out = list("positions", begin);
-    if (deforms) out += ",\n" + list("positions_end", end);
-    out += ",\n      \"uvs\": [";
-    for (std::size_t i = 0; i < uvs.size(); ++i)
-      out += fmt::format("{}[{:.4g}, {:.4g}]",
-                         i == 0  ? ""
-                         : i % 8 ? ", "
-                                 : ",\n        ",
-                         uvs[i].x, uvs[i].y);
-    out += "],\n      \"triangles\": [";
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-      out += fmt::format("{}[{}, {}, {}]",
-                         i == 0  ? ""
-                         : i % 8 ? ", "
-                                 : ",\n        ",
-                         triangles[i].x, triangles[i].y, triangles[i].z);
-    return out + "]";
+    return list("positions", begin) + (deforms ? ",\n" + list("positions_end", end) : "") + ",\n" +
+           json_rows("uvs", uvs, 8, [](vec2 uv) { return fmt::format("[{:.4g}, {:.4g}]", uv.x, uv.y); }) +
+           ",\n" + json_rows("triangles", triangles, 8, [](candela::uvec3 t) {
+             return fmt::format("[{}, {}, {}]", t.x, t.y, t.z);
+           });
   }
 };
 

@@ -12,7 +12,7 @@ namespace candela {
 vec3 relief_normal(const SurfaceMaterial& material, const RenderScene& scene, const Ray& ray, const Hit& hit,
                    const SurfaceInteraction& surface, const ConeOfRay* cone = nullptr);
 
-/// The shading normal of a hit: that, where the material has one; else the surface's own.
+/// The shading normal of a hit: relief_normal() where the material has a relief, else the surface's own.
 inline vec3 shading_normal_at(const SurfaceMaterial& material, const RenderScene& scene, const Ray& ray,
                               const Hit& hit, const SurfaceInteraction& surface,
                               const ConeOfRay* cone = nullptr) {
