@@ -14,7 +14,8 @@ namespace candela {
 namespace {
 
 constexpr std::array kDimensionNames = std::to_array<std::string_view>(
-    {"film", "lens", "light_position", "bsdf_lobe", "bsdf_direction", "russian_roulette", "opacity", "time"});
+    {"film", "lens", "light_position", "bsdf_lobe", "bsdf_direction", "russian_roulette", "opacity", "time",
+     "medium_distance", "medium_direct", "medium_pivot"});
 static_assert(kDimensionNames.size() == static_cast<std::size_t>(Dimension::count),
               "name the new dimension, in Dimension's order");
 

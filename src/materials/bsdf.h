@@ -3,6 +3,7 @@
 
 #include "core/variant.h"
 #include "materials/material_list.h"
+#include "media/volume_scattering.h"
 
 namespace candela {
 
@@ -32,10 +33,14 @@ template <class First, class... Rest>
 typename ClosuresOf<std::variant<ClosureOf<First>>, Rest...>::Type
 closures_of(const std::variant<First, Rest...>&);
 
+template <class... Closures, class More>
+std::variant<Closures..., More> with_closure_type(const std::variant<Closures...>&, const More&);
+
 } // namespace detail
 
-/// The closures of all materials.
-using Bsdf = decltype(detail::closures_of(std::declval<const MaterialModel&>()));
+/// The closures of all materials, and that of points in media.
+using Bsdf = decltype(detail::with_closure_type(detail::closures_of(std::declval<const MaterialModel&>()),
+                                                std::declval<const VolumeScattering&>()));
 
 namespace detail {
 

@@ -94,7 +94,7 @@ std::span<const std::string_view> scattering_type_names() {
 Material default_material(int type) { return with_model<Material>(type); }
 
 void change_type(Material& material, int type) {
-  const std::string group = material.group;
+  const std::string group = material.group, medium = material.medium;
   auto copy = [](const MaterialField& to, Material& changed, const MaterialField& from, Material& old) {
     if (!from.kept || !to.kept) return;
     if (to.parameter != nullptr && from.parameter != nullptr &&
@@ -104,7 +104,7 @@ void change_type(Material& material, int type) {
   };
   change_model(
       material, type, [](int t) { return material_fields(t); }, copy);
-  material.group = group;
+  material.group = group, material.medium = medium;
 }
 
 std::span<const MaterialField> material_fields(int type) {

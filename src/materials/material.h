@@ -26,6 +26,7 @@ struct Material {
   NumberParameter bump = 0.0f;                       ///< height, scene units; a constant is no map
   bool two_sided_emission = false;                   ///< otherwise only from the side of the geometric normal
   std::string group{};                               ///< of lights that its emission belongs to; empty: none
+  std::string medium{};                              ///< of the scene, that fills the body; empty: none
   bool operator==(const Material&) const = default;
 };
 
@@ -82,8 +83,9 @@ struct Interior {
   vec3 absorption{0}; ///< absorption coefficient sigma_a, 1/scene unit
   float ior = 1;      ///< index of refraction over vacuum or over the outside; of a textured one, its factor
   int priority = 0;   ///< as MediumId has it
+  std::string medium{}; ///< Material::medium
 };
-/// Nothing if no light enters the surface.
+/// Of the model alone; nothing if no light enters the surface.
 std::optional<Interior> interior(const MaterialModel& model);
 
 /// Calls use(closure) with the closure (bsdf/) of the model, at(parameter) being a parameter's value.

@@ -142,6 +142,10 @@ std::optional<Interior> interior(std::span<const Material* const> materials, std
   each_part(*materials[i], [&](const MaterialField&, int index) {
     if (!found && index >= 0) found = interior(materials, static_cast<std::size_t>(index));
   });
+  if (!materials[i]->medium.empty()) {
+    if (!found) found = Interior{};
+    found->medium = materials[i]->medium;
+  }
   return found;
 }
 

@@ -2,20 +2,23 @@
 // What fills the space between surfaces, as one value.
 
 #include "core/variant.h"
-#include "media/absorbing_medium.h"
+#include "media/homogeneous_medium.h"
 
 namespace candela {
 
 /// - transmittance: the share of light that passes the ray's first `distance` (scene units; may be infinite;
 ///   the ray's direction is of any length), or an unbiased estimate of it. The sampler is for media that
 ///   estimate: they must not draw what is drawn elsewhere at the same bounce.
+/// - scatters, emits: whether it does so anywhere.
 template <class M>
 concept MediumModel = requires(const M& m, const Ray& ray, float distance, const Sampler& sampler) {
   { m.transmittance(ray, distance, sampler) } -> std::same_as<Spectrum>;
+  { m.scatters() } -> std::same_as<bool>;
+  { m.emits() } -> std::same_as<bool>;
 };
 
 /// All media: a new one is a file of its own, and a name here.
-using Medium = std::variant<AbsorbingMedium>;
+using Medium = std::variant<HomogeneousMedium>;
 
 namespace detail {
 
@@ -27,9 +30,16 @@ static_assert(are_medium_models(static_cast<const Medium*>(nullptr)));
 
 } // namespace detail
 
-/// As MediumModel's member of the same name.
+// As MediumModel's members of the same names.
+
 inline Spectrum transmittance(const Ray& ray, float distance, const Medium& medium, const Sampler& sampler) {
   return visit_variant([&](const auto& m) { return m.transmittance(ray, distance, sampler); }, medium);
+}
+inline bool medium_scatters(const Medium& medium) {
+  return visit_variant([](const auto& m) { return m.scatters(); }, medium);
+}
+inline bool medium_emits(const Medium& medium) {
+  return visit_variant([](const auto& m) { return m.emits(); }, medium);
 }
 
 } // namespace candela

@@ -23,6 +23,9 @@ enum class Dimension : std::uint32_t {
   russian_roulette, ///< whether the path continues
   opacity,          ///< whether a ray hits a partly transparent surface
   time,             ///< when between the opening and the closing of the shutter
+  medium_distance,  ///< where in media a ray collides
+  medium_direct,    ///< where in media lights are sampled
+  medium_pivot,     ///< near which place on which light that is
   count
 };
 

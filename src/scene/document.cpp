@@ -52,8 +52,10 @@ Invalidates compare_material(const Material& a, const Material& b) {
 Invalidates compare_materials(const std::vector<Material>& a, const std::vector<Material>& b) {
   if (a.size() != b.size()) return Invalidates::scene;
   Invalidates worst = Invalidates::nothing;
-  for (std::size_t i = 0; i < a.size(); ++i)
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i].medium != b[i].medium) worst = std::max(worst, Invalidates::image);
     if (!(a[i] == b[i])) worst = std::max(worst, compare_material(a[i], b[i]));
+  }
   return worst;
 }
 
@@ -177,6 +179,8 @@ Invalidates compare_documents(const Document& before, const Document& after) {
   if (before.scene.lights != after.scene.lights || before.scene.instances != after.scene.instances ||
       before.scene.textures != after.scene.textures)
     return Invalidates::scene;
+  if (before.scene.media != after.scene.media || before.scene.medium != after.scene.medium)
+    worst = std::max(worst, Invalidates::image);
   return std::max({worst, compare_materials(before.scene.materials, after.scene.materials),
                    compare_light_groups(before, after)});
 }
@@ -185,8 +189,8 @@ bool same_content(const Document& a, const Document& b) {
   const SceneDesc &s = a.scene, &t = b.scene;
   if (a.settings != b.settings || s.description != t.description || s.camera != t.camera ||
       s.bookmarks != t.bookmarks || s.materials != t.materials || s.light_groups != t.light_groups ||
-      !std::ranges::equal(s.lights, t.lights, same_light) || s.instances.size() != t.instances.size() ||
-      s.textures.size() != t.textures.size())
+      s.media != t.media || s.medium != t.medium || !std::ranges::equal(s.lights, t.lights, same_light) ||
+      s.instances.size() != t.instances.size() || s.textures.size() != t.textures.size())
     return false;
   for (std::size_t i = 0; i < s.textures.size(); ++i)
     if (!same_value(s.textures[i], t.textures[i])) return false;
@@ -199,6 +203,27 @@ bool same_content(const Document& a, const Document& b) {
   return true;
 }
 
+std::string medium_name_problem(const SceneDesc& scene, const std::string& name) {
+  if (name.empty() || std::ranges::find(scene.media, name, &MediumDesc::name) != scene.media.end()) return {};
+  std::vector<std::string_view> names;
+  for (const MediumDesc& medium : scene.media) names.push_back(medium.name);
+  const std::string near = nearest_name(name, names);
+  return fmt::format("there is no medium '{}'; {}", name,
+                     near.empty() ? "give one of \"media\"" : fmt::format("did you mean '{}'?", near));
+}
+
+namespace {
+
+std::string medium_names_problem(const SceneDesc& scene) {
+  if (auto p = medium_name_problem(scene, scene.medium); !p.empty()) return "medium: " + p;
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    if (auto p = medium_name_problem(scene, scene.materials[i].medium); !p.empty())
+      return fmt::format("materials[{}].medium: {}", i, p);
+  return {};
+}
+
+} // namespace
+
 std::string document_problem(const Document& document) {
   if (auto problem = row_problem(settings_table(), document, ""); !problem.empty()) return problem;
   const SceneDesc& scene = document.scene;
@@ -206,6 +231,8 @@ std::string document_problem(const Document& document) {
     if (auto p = material_problem(scene.materials[i], scene.textures.size()); !p.empty())
       return fmt::format("materials[{}].{}", i, p);
   }
+  if (auto p = media_problem(scene.media); !p.empty()) return p;
+  if (auto p = medium_names_problem(scene); !p.empty()) return p;
   if (auto p = parts_problem(scene.materials))
     return fmt::format("materials[{}].{}: {}; {}", p->material, p->key, p->cause, p->remedy);
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {

@@ -16,6 +16,8 @@ namespace candela {
 enum class Integrator : int { path, direct, whitted, ao };
 enum class LightSampling : int { bsdf, nee, mis };
 enum class LightChoiceBy : int { power, contribution };
+/// How places in media are chosen for light that is scattered once towards the camera.
+enum class MediumSampling : int { mis, distance, equiangular };
 enum class MisHeuristic : int { balance, power };
 enum class RussianRoulette : int { off, throughput, fixed };
 enum class PathComponent : int { all, emitted, direct, indirect };
@@ -50,6 +52,7 @@ struct PathSettings {
   int light_samples = 1; ///< shadow rays per vertex
   LightChoiceBy light_choice = LightChoiceBy::contribution;
   DirectionSampling direction_sampling = DirectionSampling::bsdf;
+  MediumSampling medium_sampling = MediumSampling::mis;
   int max_depth = -1; ///< 1: emitters seen directly, 2: direct light, -1: no limit
   RussianRoulette rr = RussianRoulette::throughput;
   int rr_depth = 1; ///< the segment after which Russian roulette starts

@@ -97,6 +97,13 @@ std::vector<Material> grouped_materials(const SceneDesc& scene) {
   });
 }
 
+std::vector<MediumDesc> grouped_media(const SceneDesc& scene) {
+  std::vector<MediumDesc> media = scene.media;
+  const vec3 factor = light_factor(scene, "");
+  for (MediumDesc& medium : media) medium.emission *= factor;
+  return media;
+}
+
 std::string light_groups_problem(const SceneDesc& scene) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < scene.light_groups.size(); ++i) {

@@ -12,6 +12,7 @@ namespace candela {
 
 struct LightDesc;
 struct Material;
+struct MediumDesc;
 struct SceneDesc;
 
 /// The lights and emitting materials whose `group` is its name.
@@ -46,6 +47,8 @@ bool has_scaled_groups(const SceneDesc& scene);
 /// The scene's lights and materials with the factors of their groups in their colours.
 std::vector<LightDesc> grouped_lights(const SceneDesc& scene);
 std::vector<Material> grouped_materials(const SceneDesc& scene);
+/// The same of media that shine, which have no group.
+std::vector<MediumDesc> grouped_media(const SceneDesc& scene);
 
 /// What is wrong with the groups: "light_groups[0].name: cause; remedy"; empty if all is well.
 std::string light_groups_problem(const SceneDesc& scene);

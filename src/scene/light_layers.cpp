@@ -20,6 +20,7 @@ LightLayers layers_of(const SceneDesc& scene) {
     const auto at = group.empty() ? layers.names.end() : std::ranges::find(layers.names, group);
     return static_cast<std::uint8_t>(at - layers.names.begin());
   };
+  for (const MediumDesc& medium : scene.media) layers.has_rest |= medium.emission != vec3(0);
   for (const LightDesc& light : scene.lights) {
     layers.has_rest |= light.group.empty();
     layers.of_light.push_back(layer(light.group));

@@ -6,6 +6,7 @@
 #include "core/fields.h"
 #include "lights/light_desc.h"
 #include "materials/material.h"
+#include "media/medium_desc.h"
 #include "scene/curves.h"
 #include "scene/light_group.h"
 #include "scene/mesh.h"
@@ -140,12 +141,18 @@ struct SceneDesc {
   Camera camera;
   std::vector<Bookmark> bookmarks;
   std::vector<Material> materials;
+  std::vector<MediumDesc> media; ///< of different names
+  std::string medium;            ///< that fills the scene where no body lies; empty: none
   std::vector<LightDesc> lights;
   std::vector<LightGroup> light_groups; ///< of different names
   std::vector<Instance> instances;
   std::vector<std::shared_ptr<const Texture>> textures;
   bool operator==(const SceneDesc&) const = default; ///< meshes, strands and pictures by identity
 };
+
+/// What is wrong with the name of a medium that is referred to: "cause; remedy"; empty if it is one of the
+/// scene's, or none.
+std::string medium_name_problem(const SceneDesc& scene, const std::string& name);
 
 /// Bounds in the shape's own space; for planes those of the unit square.
 Bounds3 shape_bounds(const Shape& shape);

@@ -24,6 +24,7 @@ constexpr std::string_view kHeuristics[] = {"balance", "power"};
 constexpr std::string_view kDirections[] = {"uniform", "cosine", "bsdf"};
 constexpr std::string_view kRoulette[] = {"off", "throughput", "fixed"};
 constexpr std::string_view kComponents[] = {"all", "emitted", "direct", "indirect"};
+constexpr std::string_view kMediumSamplings[] = {"mis", "distance", "equiangular"};
 constexpr std::string_view kLightGroups[] = {"film", "scene"};
 /// "none", then the materials' types, without those that name other materials.
 std::span<const std::string_view> override_names() {
@@ -75,6 +76,12 @@ const Field<Document> kRows[] = {
     {{"path.direction_sampling", FieldType::choice, 0, 0, "",
       "Density of the next direction: uniform, by the cosine, or by the material", kImage, kDirections},
      AT(settings.path.direction_sampling)},
+    {{"path.medium_sampling", FieldType::choice, 0, 0, "",
+      "Where on a ray through media lights are sampled: by distance (in proportion to what arrives at the "
+      "eye), "
+      "equiangular (near a sampled light), or both, combined by MIS",
+      kImage, kMediumSamplings},
+     AT(settings.path.medium_sampling)},
     {{"path.max_depth", FieldType::integer, -1, 1000000, "segments",
       "Longest path: 1 shows only emitters, 2 also direct light; -1: no limit, except 1024 with path.rr = "
       "off (a limit loses light)"},

@@ -35,15 +35,15 @@ const std::map<std::string, std::set<std::string>, std::less<>>& allowed() {
   static const std::map<std::string, std::set<std::string>, std::less<>> table = [] {
     std::map<std::string, std::set<std::string>, std::less<>> t;
     std::set<std::string> before;
-    for (const char* folder : {"core", "sampling", "imaging", "bsdf", "textures", "materials", "lights",
-                               "media", "accel", "scene"}) {
+    for (const char* folder : {"core", "sampling", "imaging", "bsdf", "media", "textures", "materials",
+                               "lights", "accel", "scene"}) {
       t[folder] = before;
       before.insert(folder);
     }
     t["io"] = t["render"] = before; // siblings
     before.insert({"io", "render"});
     t["session"] = before;
-    t["lab"] = {"core", "sampling", "imaging", "bsdf", "textures", "materials"};
+    t["lab"] = {"core", "sampling", "imaging", "bsdf", "media", "textures", "materials"};
     before.insert({"session", "lab"});
     t["app"] = before;
     return t;

@@ -22,8 +22,11 @@ using namespace mitsuba_xml;
 
 /// Names of the indices of refraction that the scenes use, as Mitsuba has them.
 float ior(const Node& bsdf, std::string_view name, const char* otherwise) {
-  static const std::map<std::string, float> known = {
-      {"air", 1.000277f}, {"bk7", 1.5046f}, {"diamond", 2.419f}, {"polypropylene", 1.49f}};
+  static const std::map<std::string, float> known = {{"air", 1.000277f},
+                                                     {"bk7", 1.5046f},
+                                                     {"diamond", 2.419f},
+                                                     {"polypropylene", 1.49f},
+                                                     {"water", 1.3330f}};
   const std::string value = text(bsdf, name, otherwise);
   const auto found = known.find(value);
   return found != known.end() ? found->second : numbers(value).at(0);
@@ -64,7 +67,7 @@ std::shared_ptr<const Panorama> with_rows_of_mitsuba(const Panorama& panorama) {
 
 class Reader {
 public:
-  explicit Reader(const std::string& path) {
+  Reader(const std::string& path, bool patterns_upside_down) : patterns_upside_down_(patterns_upside_down) {
     read(path);
     document_.settings.path.max_depth = max_depth_;
   }
@@ -78,7 +81,22 @@ private:
     const Node scene = files_.back()->child("scene");
     for (const Node& node : scene.children())
       if (node.attribute("id")) named_[node.attribute("id").value()] = node;
-    for (const Node& node : scene.children()) element(node);
+    for (const Node& node : scene.children()) {
+      if (std::string_view(node.name()) == "default")
+        defaults_.try_emplace(node.attribute("name").value(), node.attribute("value").value());
+      fill_in(node);
+      element(node);
+    }
+  }
+
+  /// Puts the values of <default> for "$name".
+  void fill_in(const Node& node) {
+    for (pugi::xml_attribute attribute : node.attributes()) {
+      const std::string value = attribute.value();
+      const auto found = value.starts_with("$") ? defaults_.find(value.substr(1)) : defaults_.end();
+      if (found != defaults_.end()) attribute.set_value(found->second.c_str());
+    }
+    for (const Node& part : node.children()) fill_in(part);
   }
 
   void element(const Node& node) {
@@ -93,12 +111,27 @@ private:
       sensor(node);
     else if (kind == "emitter")
       emitter(node);
+    else if (kind == "medium")
+      medium(node);
     else if (kind == "shape")
       shape(node, mat4(1));
     else if (kind == "texture") // used by name
       face_weights_ |= text(node, "name", "") == "face_weight";
     else if (kind != "default" && kind != "bsdf" && node.type() == pugi::node_element)
       throw unknown("element", node);
+  }
+
+  void medium(const Node& node) {
+    const Node phase = node.child("phase");
+    if (std::string_view(node.attribute("type").value()) != "homogeneous" ||
+        std::string_view(phase.attribute("type").value()) != "isotropic")
+      throw unknown("medium", node);
+    MediumDesc desc;
+    desc.name = node.attribute("id").value();
+    desc.sigma_t = color_of(child(node, "sigma_t"));
+    desc.albedo = color_of(child(node, "albedo"));
+    desc.scale = number(node, "scale", 1);
+    document_.scene.media.push_back(desc);
   }
 
   std::string file(const Node& node) const {
@@ -144,6 +177,16 @@ private:
       const std::string path = file(node);
       light.model = EnvironmentLightModel{
           .panorama = with_rows_of_mitsuba(*read_panorama(std::span(&path, 1), warnings))};
+    } else if (type == "spot") {
+      const Node look = child(node, "to_world").child("lookat");
+      const vec3 from = three(look.attribute("origin").value());
+      const float cutoff = number(node, "cutoff_angle", 20);
+      SpotLightModel spot;
+      spot.position = from, spot.direction = three(look.attribute("target").value()) - from;
+      spot.cutoff_angle = radians(cutoff),
+      spot.beam_width = radians(number(node, "beam_width", 0.75f * cutoff));
+      light.model = spot;
+      color("intensity");
     } else if (type == "point") {
       const Node position = child(node, "position");
       const vec3 p = position ? axes(position, 0) : vec3(transform(node)[3]);
@@ -197,6 +240,9 @@ private:
       throw unknown("shape", node);
     }
     const int index = material(node.child("bsdf") ? node.child("bsdf") : named(node.child("ref")));
+    for (const Node& reference : node.children("ref"))
+      if (std::string_view(reference.attribute("name").value()) == "interior")
+        document_.scene.materials[static_cast<std::size_t>(index)].medium = reference.attribute("id").value();
     if (const Node light = node.child("emitter"))
       document_.scene.materials[static_cast<std::size_t>(index)].emission =
           color_of(child(light, "radiance"));
@@ -243,8 +289,10 @@ private:
       use.wrap = wraps.at(text(node, "wrap_mode", "repeat"));
       use.color_space = text(node, "raw", "false") == "true" ? ColorSpace::linear : ColorSpace::srgb;
     } else if (type == "checkerboard") {
-      // Half as wide as ours; "color1" touches (0, 0).
-      made.model = CheckerTexture{color_of(child(node, "color1")), color_of(child(node, "color0")), 2};
+      // Half as wide as ours; "color0" touches (0, 0).
+      vec3 even = color_of(child(node, "color0")), odd = color_of(child(node, "color1"));
+      if (patterns_upside_down_) std::swap(even, odd);
+      made.model = CheckerTexture{even, odd, 2};
     } else if (type == "mesh_attribute") {
       using Attribute = MeshAttributeTexture::Attribute;
       const bool vertex = text(node, "name", "").starts_with("vertex_");
@@ -294,7 +342,8 @@ private:
     if (type == "twosided") {
       const int both = add(closure(bsdf.child("bsdf")));
       whole.model = TwoSidedMaterial{both, both};
-    } else if (type == "dielectric" || type == "roughdielectric") {
+    } else if (type == "dielectric" || type == "roughdielectric" || type == "thindielectric" ||
+               type == "null") {
       return add(closure(bsdf));
     } else {
       whole.model = TwoSidedMaterial{add(closure(bsdf)), -1};
@@ -339,6 +388,10 @@ private:
                                         .roughness = std::sqrt(number(bsdf, "alpha", 0.1f)),
                                         .distribution = distribution(bsdf),
                                         .energy_compensation = false};
+    } else if (type == "thindielectric") {
+      m.model = ThinDielectricMaterial{relative_ior(bsdf, "bk7")};
+    } else if (type == "null") {
+      m.model = NullMaterial{};
     } else if (type == "principled") {
       m.model = PrincipledMaterial{};
       for (const Node& value : bsdf.children()) set(m, value.attribute("name").value(), value);
@@ -353,16 +406,20 @@ private:
   }
 
   Document document_;
+  bool patterns_upside_down_;
   int max_depth_ = 2;
   bool v_downwards_ = false;  ///< of the shape that is being read
   bool face_weights_ = false; ///< they stand for the colours of faces
   std::vector<std::unique_ptr<pugi::xml_document>> files_;
   std::vector<fs::path> folders_; ///< where files are looked for; the first is the scene's
   std::map<std::string, Node> named_;
+  std::map<std::string, std::string> defaults_;
 };
 
 } // namespace
 
-Document read_mitsuba_scene(const std::string& path) { return Reader(path).take(); }
+Document read_mitsuba_scene(const std::string& path, bool patterns_upside_down) {
+  return Reader(path, patterns_upside_down).take();
+}
 
 } // namespace candela::test

@@ -68,7 +68,12 @@ inline mat4 transform(const Node& parent, const char* name = "to_world") {
       m = glm::scale(mat4(1), axes(step, 1)) * m;
     else if (kind == "rotate")
       m = glm::rotate(mat4(1), radians(step.attribute("angle").as_float()), axes(step, 0)) * m;
-    else
+    else if (kind == "matrix") {
+      const std::vector<float> rows = numbers(step.attribute("value").value());
+      mat4 matrix;
+      for (int i = 0; i < 16; ++i) matrix[i % 4][i / 4] = rows.at(static_cast<std::size_t>(i));
+      m = matrix * m;
+    } else
       throw unknown("transform", step);
   }
   return m;

@@ -2,6 +2,7 @@
 #include "io/candela/json_camera.h"
 #include "io/candela/json_instance_list.h"
 #include "io/candela/json_light.h"
+#include "io/candela/json_medium.h"
 #include "io/files/text_file.h"
 
 #include <algorithm>
@@ -26,9 +27,9 @@ public:
   CandelaReader& operator=(const CandelaReader&) = delete;
 
   Document run() {
-    constexpr std::string_view kKeys[] = {"candela",   "description", "camera",       "bookmarks",
-                                          "materials", "lights",      "light_groups", "textures",
-                                          "meshes",    "instances",   "settings"};
+    constexpr std::string_view kKeys[] = {"candela", "description", "camera",  "bookmarks",    "media",
+                                          "medium",  "materials",   "lights",  "light_groups", "textures",
+                                          "meshes",  "instances",   "settings"};
     JsonValue root = tree_.root();
     expect(root, JsonType::object, "scene");
     std::map<std::string, JsonValue> parts;
@@ -53,6 +54,11 @@ public:
     read("settings", [&](JsonValue object) { settings_below(object, "settings", ""); });
     read("camera", [&](JsonValue object) { scene.camera = read_json_camera(object, "camera"); });
     read("bookmarks", [&](JsonValue array) { scene.bookmarks = read_json_bookmarks(array); });
+    read("media", [&](JsonValue array) { read_media(array); });
+    read("medium", [&](JsonValue name) {
+      scene.medium = read_string(name, "medium");
+      check_medium(name, "medium", scene.medium);
+    });
     read("textures", [&](JsonValue array) { materials_.read_textures(array); });
     read("materials", [&](JsonValue array) { materials_.read_materials(array); });
     read("lights", [&](JsonValue array) {
@@ -74,6 +80,22 @@ public:
   }
 
 private:
+  void read_media(JsonValue array) {
+    std::vector<MediumDesc>& media = document_.scene.media;
+    source_.each_object(array, "media", [&](JsonValue object, const std::string& element) {
+      media.push_back(read_json_medium(object, element));
+      if (const std::string problem = media_problem(media); !problem.empty())
+        throw input_error(object.where(), element, problem.substr(0, problem.find("; ")),
+                          problem.substr(problem.find("; ") + 2));
+    });
+  }
+
+  void check_medium(JsonValue at, const std::string& element, const std::string& name) const {
+    if (const std::string problem = medium_name_problem(document_.scene, name); !problem.empty())
+      throw input_error(at.where(), element, problem.substr(0, problem.find("; ")),
+                        problem.substr(problem.find("; ") + 2));
+  }
+
   /// Finds the files that will be read, so that progress is of all of them.
   void expect_files(JsonValue value) {
     progress_.check();

@@ -4,6 +4,7 @@
 #include "io/candela/json_fields.h"
 #include "io/candela/json_light.h"
 #include "io/candela/json_material.h"
+#include "io/candela/json_medium.h"
 #include "io/candela/json_mesh.h"
 #include "io/candela/json_profile.h"
 #include "io/candela/json_texture.h"
@@ -45,6 +46,11 @@ public:
     add("bookmarks", "[", json_bookmarks(scene_.bookmarks), "]");
     natural_textures_ = textures_are_natural();
     if (!natural_textures_) add("textures", "[", textures(), "]");
+    std::vector<std::string> media;
+    for (const MediumDesc& medium : scene_.media)
+      media.push_back(fmt::format("{{{}}}", joined(json_medium_members(medium), ", ")));
+    add("media", "[", media, "]");
+    if (!scene_.medium.empty()) parts.push_back(fmt::format("  \"medium\": {}", json_quoted(scene_.medium)));
     add("materials", "[", materials(), "]");
     add("lights", "[", lights(), "]");
     add("light_groups", "[", light_groups(), "]");

@@ -128,6 +128,8 @@ Material read_json_material(JsonValue object, const std::string& element, const 
       material.name = read_string(value, element + ".name");
     else if (key.string() == "group")
       material.group = read_string(value, element + ".group");
+    else if (key.string() == "medium")
+      material.medium = read_string(value, element + ".medium");
     else if (!read_value(material, key, value, element, textures, parts) &&
              !read_old_texture(material, key, value, element, textures) &&
              !read_for_other_types(kMaterialTypeCount, default_material,
@@ -135,7 +137,8 @@ Material read_json_material(JsonValue object, const std::string& element, const 
                                      std::vector<JsonMaterialPart> ignored;
                                      return read_value(other, key, value, element, textures, ignored);
                                    })) {
-      std::vector<std::string_view> known = {"name", "type", "group", kOldTexture, kOldScale, kOldOffset};
+      std::vector<std::string_view> known = {"name",      "type",    "group",   "medium",
+                                             kOldTexture, kOldScale, kOldOffset};
       for (int t = 0; t < kMaterialTypeCount; ++t)
         for (const MaterialField& row : material_fields(t))
           if (std::ranges::find(known, row.key) == known.end()) known.push_back(row.key);
@@ -153,6 +156,8 @@ std::vector<std::string> json_material_members(const Material& material, const J
   if (!material.name.empty()) members.push_back(fmt::format("\"name\": {}", json_quoted(material.name)));
   if (type != 0) members.push_back(fmt::format("\"type\": {}", json_quoted(material_type_name(material))));
   if (!material.group.empty()) members.push_back(fmt::format("\"group\": {}", json_quoted(material.group)));
+  if (!material.medium.empty())
+    members.push_back(fmt::format("\"medium\": {}", json_quoted(material.medium)));
   for (const MaterialField& row : material_fields(type)) {
     if (row.parameter != nullptr && row.parameter(m).use().texture >= 0)
       members.push_back(

@@ -25,6 +25,10 @@ void JsonMaterialList::read_materials(JsonValue array) {
   source_.each_object(array, "materials", [&](JsonValue object, const std::string& element) {
     std::vector<JsonMaterialPart> parts;
     const Material material = read_json_material(object, element, textures, parts);
+    if (const std::string problem = medium_name_problem(source_.builder.scene(), material.medium);
+        !problem.empty())
+      throw input_error(object.where(), element + ".medium", problem.substr(0, problem.find("; ")),
+                        problem.substr(problem.find("; ") + 2));
     int index = source_.builder.add_material(material);
     auto [same_name, is_new] = material_by_name_.try_emplace(material.name, index);
     if (!is_new) same_name->second = kAmbiguous;

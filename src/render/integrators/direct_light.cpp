@@ -6,13 +6,14 @@ namespace candela {
 void DirectLight::draw_numbers(const ShadingPoints& points, std::uint32_t index, int samples) {
   Lanes<Sampler::Draw> draws;
   if (samples == 1) {
-    for (std::size_t k = 0; k < points.count; ++k) draws[k] = {points.sampler[points.lane[k]], 0};
+    for (std::size_t k = 0; k < points.count; ++k) draws[k] = {points.sampler[points.lane[k]], points.draw};
   } else { // those of all samples are one sequence
     branched_.clear();
     branched_.reserve(kLaneCount); // the draws point into it
     for (std::size_t k = 0; k < points.count; ++k) {
       const Sampler& own = *points.sampler[points.lane[k]];
-      draws[k] = {&branched_.emplace_back(own.branch(index, static_cast<std::uint32_t>(samples))), 0};
+      draws[k] = {&branched_.emplace_back(own.branch(index, static_cast<std::uint32_t>(samples))),
+                  points.draw};
     }
   }
   Sampler::get_2d({draws.data(), points.count}, Dimension::light_position, u_);
@@ -66,6 +67,7 @@ void DirectLight::weight_samples(const RenderScene& scene, const VertexLanes& ve
                                  const ShadingPoints& points, const PathSettings& settings) {
   shadow_count_ = 0;
   const auto n = static_cast<float>(settings.light_samples);
+  const bool weighs_later = scene.has_active_media();
   for (const LightQuery& query : std::span(queries_.data(), query_count_)) {
     const std::uint32_t i = query.lane;
     if (!(lights_.pdf[i] > 0) || !query.context->accepts(directions_.cosine[i])) continue;
@@ -74,15 +76,21 @@ void DirectLight::weight_samples(const RenderScene& scene, const VertexLanes& ve
     if (is_black(contribution)) continue;
     float pdf = pmf_[i] * lights_.pdf[i];
     float weight = 1;
-    if (!lights_.delta[i] && settings.light_sampling == LightSampling::mis)
-      weight =
-          mis_weight(settings.mis_heuristic, n * pdf, static_cast<float>(points.bsdf_samples[i]) * e.pdf);
+    const bool mis = !lights_.delta[i] && settings.light_sampling == LightSampling::mis;
+    if (mis && !weighs_later)
+      weight = mis_weight(settings.mis_heuristic, n * pdf, points.bsdf_samples[i] * e.pdf);
     ShadowRay& shadow = shadows_[shadow_count_++];
+    shadow.weighted_later = mis && weighs_later;
+    if (shadow.weighted_later) shadow.light_pdf = n * pdf, shadow.bsdf_pdf = points.bsdf_samples[i] * e.pdf;
     shadow.lane = i;
     shadow.light = contribution * (weight / (pdf * n));
     if (points.layered != nullptr)
       shadow.layer = scene.layer_of_light(static_cast<std::uint32_t>(query.light - scene.lights().data()));
     set_ray(shadow, vertices.time[i]);
+    if (!scene.has_media()) continue;
+    // The point's media are those on the side of wo.
+    shadow.media = *points.media[i];
+    if (directions_.cosine[i] < 0) shadow.media.cross(vertices.material[i]->media, vertices.side[i] > 0);
   }
 }
 
@@ -104,9 +112,23 @@ void DirectLight::add(ShadingPoints& points, const ShadowRay& shadow, Spectrum l
   if (points.layered != nullptr) points.layered->push_back({shadow.lane, shadow.layer, light});
 }
 
+/// The share of its light that reaches the point, with the MIS weight where that waits for it: the density
+/// with which BSDF sampling finds the light has the probability of no collision between in it. For the weight
+/// it is enough to know that of a path whose throughput is the same in all channels.
+Spectrum DirectLight::passed(const RenderScene& scene, const ShadowRay& shadow, const ShadingPoints& points,
+                             MisHeuristic heuristic, RayCounts& counts) {
+  const MediumStack* media = scene.has_media() ? &shadow.media : nullptr;
+  const Sampler& sampler = *points.sampler[shadow.lane];
+  if (!shadow.weighted_later) return transmittance(scene, shadow.ray, shadow.target, sampler, counts, media);
+  Spectrum unscattered;
+  const Spectrum through =
+      transmittance(scene, shadow.ray, shadow.target, sampler, counts, media, &unscattered);
+  return through * mis_weight(heuristic, shadow.light_pdf, shadow.bsdf_pdf * average(unscattered));
+}
+
 /// Gives the points the light that reaches them.
-void DirectLight::trace_shadow_rays(const RenderScene& scene, ShadingPoints& points, RayCounts& counts,
-                                    StopPoll& stop) {
+void DirectLight::trace_shadow_rays(const RenderScene& scene, ShadingPoints& points, MisHeuristic heuristic,
+                                    RayCounts& counts, StopPoll& stop) {
   const std::span<const ShadowRay> shadows(shadows_.data(), shadow_count_);
   const bool anything_passes = scene.has_transparency() || scene.has_media();
   if (!points.coherent && !anything_passes) {
@@ -118,9 +140,7 @@ void DirectLight::trace_shadow_rays(const RenderScene& scene, ShadingPoints& poi
   if (anything_passes) {
     for (const ShadowRay& shadow : shadows) {
       if (stop.asked()) return;
-      const MediumStack* media = scene.has_media() ? points.media[shadow.lane] : nullptr;
-      const Spectrum through =
-          transmittance(scene, shadow.ray, shadow.target, *points.sampler[shadow.lane], counts, media);
+      const Spectrum through = passed(scene, shadow, points, heuristic, counts);
       if (!is_black(through)) add(points, shadow, shadow.light * through);
     }
     return;
@@ -148,7 +168,7 @@ void DirectLight::estimate(const RenderScene& scene, const VertexLanes& vertices
     if (scene.has_textured_lights()) look_up_radiance(scene);
     set_directions(vertices, lights_, directions_);
     weight_samples(scene, vertices, points, settings);
-    trace_shadow_rays(scene, points, counts, stop);
+    trace_shadow_rays(scene, points, settings.mis_heuristic, counts, stop);
     if (stop.asked()) return;
   }
 }

@@ -21,11 +21,12 @@ struct LayeredLight {
 /// The points that lights are sampled for: some lanes of VertexLanes.
 struct ShadingPoints {
   std::size_t count = 0;
-  bool coherent = false; ///< their shadow rays are traced together: faster where they lie side by side
+  std::uint32_t draw = 0; ///< index of the random numbers; differs where one bounce has several such points
+  bool coherent = false;  ///< their shadow rays are traced together: faster where they lie side by side
   std::array<std::uint32_t, kLaneCount> lane; ///< of the first `count`
   // By lane:
   Lanes<const Sampler*> sampler;   ///< stands at the vertex's bounce
-  Lanes<int> bsdf_samples;         ///< directions that BSDF sampling will take there, for MIS
+  Lanes<float> bsdf_samples;       ///< directions that BSDF sampling will take there, for MIS
   Lanes<const MediumStack*> media; ///< of the point, on the side of wo; in scenes with media
   Lanes<Spectrum> light;           ///< output: the estimate of f |cos| x radiance
   /// Output, if not null: the parts of `light`, with the layers of their lights.
@@ -64,8 +65,12 @@ private:
     Ray ray;
     ShadowTarget target;
     std::uint32_t lane;
+    MediumStack media; ///< where it begins; in scenes with media
     Spectrum light;
     std::uint8_t layer; ///< of the light, where layers are asked for
+    // In scenes with active media, where the weight against BSDF sampling depends on what is between:
+    bool weighted_later;
+    float light_pdf, bsdf_pdf; ///< 1/sr, numbers of samples included
   };
 
   // The stages of one light sample for each point, in their order.
@@ -78,8 +83,11 @@ private:
                       const PathSettings& settings);
   void set_ray(ShadowRay& shadow, float time) const;
   static void add(ShadingPoints& points, const ShadowRay& shadow, Spectrum light);
+  static Spectrum passed(const RenderScene& scene, const ShadowRay& shadow, const ShadingPoints& points,
+                         MisHeuristic heuristic, RayCounts& counts);
   void look_up_radiance(const RenderScene& scene);
-  void trace_shadow_rays(const RenderScene& scene, ShadingPoints& points, RayCounts& counts, StopPoll& stop);
+  void trace_shadow_rays(const RenderScene& scene, ShadingPoints& points, MisHeuristic heuristic,
+                         RayCounts& counts, StopPoll& stop);
 
   std::vector<Sampler> branched_;
   Lanes<vec2> u_; ///< by point; all else by lane or by query

@@ -33,7 +33,7 @@ bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
   for (int depth = 1; depth <= last_depth_ && !paths_.empty(); ++depth) {
     intersect(depth, stop);
     if (stop.asked()) return false;
-    sample_media(stop);
+    sample_media(depth, stop);
     if (shows_depth(settings_, depth)) {
       add_environment(depth);
       add_emission(depth);
@@ -41,6 +41,8 @@ bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
     next_paths_.clear();
     next_media_.clear();
     next_cones_.clear();
+    sample_lights_in_media(depth, stop);
+    scatter_in_media(depth, stop);
     if (depth < last_depth_)
       for (std::size_t begin = 0; begin < arrived_.size(); begin += kLaneCount)
         scatter(begin, std::min(kLaneCount, arrived_.size() - begin), depth, stop);
@@ -87,13 +89,21 @@ void PathTracer::intersect(int depth, StopPoll& stop) {
 }
 
 /// Through transparent surfaces and media: divides the paths where intersect() has not.
-void PathTracer::sample_media(StopPoll& stop) {
+void PathTracer::sample_media(int depth, StopPoll& stop) {
+  light_vertices_.clear();
+  collisions_.clear();
   if (!passes_media()) return;
+  const bool active = scene_.has_active_media();
   for (std::size_t i = 0; i < paths_.size(); ++i) {
     if (i % kRaysPerPoll == 0 && stop.asked()) return;
     Hit& hit = hits_[arrived_.size()]; // at i or before
     hit = hits_[i];
-    divide(paths_[i], pass_media(i, hit.t < kInfinity, hit));
+    if (!active) {
+      divide(paths_[i], pass_media(i, hit.t < kInfinity, hit));
+      continue;
+    }
+    const RayEnd end = pass_active_media(i, hit.t < kInfinity, hit, depth);
+    if (end != RayEnd::collision) divide(paths_[i], end == RayEnd::surface);
   }
 }
 
@@ -218,6 +228,7 @@ void PathTracer::make_vertices(std::size_t begin, std::size_t count, int depth) 
   scattering_flags_ = BsdfFlags::none;
   shading_points_.count = 0;
   shading_points_.coherent = depth == 1;
+  shading_points_.draw = 0;
   const bool depends_on_context = scene_.all_lights().depends_on_context();
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!vertices_.scatters(i)) continue;
@@ -226,10 +237,10 @@ void PathTracer::make_vertices(std::size_t begin, std::size_t count, int depth) 
     const BsdfFlags flags = bsdf_flags(bsdf);
     const bool specular =
         has_any(flags, BsdfFlags::delta) && bsdf_delta_probability(bsdf, vertices_.wo_local[i]) >= 1;
-    const int branches = path.split || specular ? 1 : settings_.split;
+    const int branches = branches_at(path, specular);
     path.split |= !specular;
     scattering_flags_ |= flags;
-    scattering_.push_back({&path, i, branches});
+    scattering_.push_back({&path, i, branches, 1});
     if (specular) continue; // no light sample meets a delta lobe
     LightSamplingContext& context = vertices_.light_context[i];
     if (transmits_with_density(flags)) context.domain = ScatteringDomain::sphere;
@@ -238,7 +249,7 @@ void PathTracer::make_vertices(std::size_t begin, std::size_t count, int depth) 
     if (depends_on_context && !is_diffuse(flags)) set_lobe(i, bsdf);
     shading_points_.lane[shading_points_.count++] = i;
     shading_points_.sampler[i] = &path.sampler;
-    shading_points_.bsdf_samples[i] = branches;
+    shading_points_.bsdf_samples[i] = static_cast<float>(branches);
     if (scene_.has_media()) shading_points_.media[i] = &media_of(path);
   }
 }
@@ -305,7 +316,7 @@ bool PathTracer::sample_bsdfs(std::uint32_t branch, int depth) {
           continuation_.throughput.set(i, Spectrum(0)); // ends by Russian roulette
           return;
         }
-        directions_[k].bsdf_pdf = s->pdf * branches;
+        directions_[k].bsdf_pdf = s->pdf * branches * vertex.pdf_scale;
         directions_[k].delta = s->delta;
         continuation_.wi_local.set(i, s->wi);
         Spectrum throughput = vertex.path->throughput;

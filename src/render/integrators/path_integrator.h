@@ -72,6 +72,23 @@ private:
     Path* path;
     std::uint32_t lane;
     int branches; ///< directions to sample
+    /// Density of light sampling there over that of BSDF sampling is scaled by its inverse: see MediumVertex.
+    float pdf_scale = 1;
+  };
+  /// How a ray's way through media ends.
+  enum class RayEnd { escaped, surface, collision };
+  /// A point in a medium that scatters.
+  struct MediumVertex {
+    Path* path;
+    vec3 position;
+    const PhaseFunction* phase;
+    /// Of sampling lights: of the path to it, sigma_s and its density included. Of a collision: unused.
+    Spectrum throughput;
+    MediumStack bodies;
+    /// p / q, with the density p of such a distance for collisions and q for light sampling; both strategies
+    /// find light by the distance and the direction, so the density of the direction is scaled by this for
+    /// MIS. Infinite where lights are not sampled.
+    float pdf_ratio;
   };
   /// A direction that is sampled from a vertex: a continuation of its path.
   struct SampledDirection {
@@ -84,7 +101,7 @@ private:
 
   // The stages, in their order.
   void intersect(int depth, StopPoll& stop);
-  void sample_media(StopPoll& stop);
+  void sample_media(int depth, StopPoll& stop);
   void add_environment(int depth);
   void add_emission(int depth);
   void scatter(std::size_t begin, std::size_t count, int depth, StopPoll& stop);
@@ -97,6 +114,18 @@ private:
   /// Whether light may pass surfaces or fade between them.
   bool passes_media() const { return scene_.has_transparency() || scene_.has_media(); }
   bool pass_media(std::size_t path, bool met, Hit& hit);
+  // Of scenes with active media, in path_media.cpp:
+  RayEnd pass_active_media(std::size_t path, bool met, Hit& hit, int depth);
+  float choose_light_vertex(Path& path, const Ray& ray, Spectrum channels, const MediumPoint* collision,
+                            int depth);
+  std::optional<EquiangularSampling> equiangular_about_light(const Path& path, const Ray& ray,
+                                                             Spectrum channels) const;
+  void add_medium_emission(const Path& path, Spectrum emission, int depth);
+  void sample_lights_in_media(int depth, StopPoll& stop);
+  void scatter_in_media(int depth, StopPoll& stop);
+  int branches_at(const Path& path, bool specular) const {
+    return path.split || specular ? 1 : settings_.split;
+  }
   void divide(Path& path, bool arrives) { (arrives ? arrived_ : escaped_).push_back(&path); }
   void set_lobe(std::size_t lane, const Bsdf& bsdf);
   /// Null in scenes that do not filter textures.
@@ -137,6 +166,9 @@ private:
   std::vector<Path*> escaped_;
   std::vector<EnvironmentMap::Place> places_; ///< parallel to escaped_
   std::vector<Path*> arrived_;                ///< at a surface
+  MediumWay way_;                             ///< of the ray in flight
+  std::vector<MediumVertex> light_vertices_;  ///< points in media that lights are sampled for
+  std::vector<MediumVertex> collisions_;      ///< of paths that end in a medium
 
   // Of the lanes in flight.
   VertexLanes vertices_;

@@ -9,10 +9,14 @@ namespace {
 constexpr std::uint32_t kMaxCrossings = 1024;
 
 /// Of the ray's first `distance` (scene units).
-Spectrum transmittance(const RenderScene& scene, const MediumStack& media, const Ray& ray, float distance,
-                       const Sampler& sampler) {
-  const MediumId medium = media.current();
-  return medium ? transmittance(ray, distance, scene.medium(medium), sampler) : Spectrum(1);
+Spectrum transmittance(const RenderScene& scene, const MediumStack& bodies, const Ray& ray, float distance,
+                       const Sampler& sampler, Spectrum* unscattered = nullptr) {
+  const MediumId id = scene.filling(bodies);
+  if (!id) return Spectrum(1);
+  const Medium& medium = scene.medium(id);
+  const Spectrum passes = transmittance(ray, distance, medium, sampler);
+  if (unscattered != nullptr && medium_scatters(medium)) *unscattered *= passes;
+  return passes;
 }
 
 /// Whether the surface that the ray, which is in `media`, meets is not there.
@@ -28,9 +32,19 @@ bool is_hidden(const RenderScene& scene, const SurfaceMaterial& material, const 
 bool detail::intersect_through_media(const RenderScene& scene, Ray& ray, const Sampler& sampler, bool met,
                                      Hit& hit, RayCounts& counts, MediaPassage* passage,
                                      const ConeOfRay* cone) {
+  if (passage != nullptr && passage->way != nullptr) passage->way->start(ray.direction);
+  // Behind a surface the ray begins a little beyond it; the medium begins at the surface.
+  vec3 begin = ray.origin;
+  float skipped = 0;
   auto advance = [&](float distance) {
-    if (passage != nullptr)
+    if (passage == nullptr) return;
+    distance += skipped;
+    if (passage->way == nullptr) {
       passage->transmittance *= transmittance(scene, passage->media, ray, distance, sampler);
+      return;
+    }
+    const MediumId id = scene.filling(passage->media);
+    passage->way->add(begin, distance, passage->media, id ? &scene.medium(id) : nullptr);
   };
   if (!scene.has_passable_surfaces()) {
     advance(met ? hit.t : kInfinity);
@@ -49,6 +63,8 @@ bool detail::intersect_through_media(const RenderScene& scene, Ray& ray, const S
     if (passage != nullptr)
       passage->media.cross(material.media, glm::dot(s.geometric_normal, ray.direction) < 0);
     ray.origin = offset_ray_origin(s.position, s.position_error, s.geometric_normal, ray.direction);
+    begin = s.position;
+    skipped = glm::dot(ray.origin - begin, ray.direction);
     ++counts.closest;
     met = scene.geometry().accel().intersect(ray, hit);
   }
@@ -57,18 +73,22 @@ bool detail::intersect_through_media(const RenderScene& scene, Ray& ray, const S
 }
 
 Spectrum transmittance(const RenderScene& scene, const Ray& towards, const ShadowTarget& target,
-                       const Sampler& sampler, RayCounts& counts, const MediumStack* media) {
+                       const Sampler& sampler, RayCounts& counts, const MediumStack* media,
+                       Spectrum* unscattered) {
+  if (unscattered != nullptr) *unscattered = Spectrum(1);
   const Accel& accel = scene.geometry().accel();
   // `t` is in lengths of the ray's direction, as Hit has it.
+  float skipped = 0; // between a surface and where the ray begins behind it
   auto passes = [&](const MediumStack& where, const Ray& ray, float t) {
-    return where.empty() ? Spectrum(1)
-                         : transmittance(scene, where, ray, t * glm::length(ray.direction), sampler);
+    return media == nullptr ? Spectrum(1)
+                            : transmittance(scene, where, ray, skipped + t * glm::length(ray.direction),
+                                            sampler, unscattered);
   };
   const float whole_way = target.infinite ? kInfinity : 1;
   if (!scene.has_passable_surfaces()) {
     ++counts.shadow;
     if (accel.occluded(towards)) return Spectrum(0);
-    return media == nullptr ? Spectrum(1) : passes(*media, towards, whole_way);
+    return passes(media != nullptr ? *media : MediumStack(), towards, whole_way);
   }
   Ray ray = towards;
   MediumStack where = media != nullptr ? *media : MediumStack();
@@ -91,6 +111,7 @@ Spectrum transmittance(const RenderScene& scene, const Ray& towards, const Shado
     }
     ray.origin = offset_ray_origin(s.position, s.position_error, s.geometric_normal, ray.direction);
     if (!target.infinite) ray.direction = target.point - ray.origin;
+    skipped = glm::length(ray.origin - s.position);
   }
   return Spectrum(0);
 }

@@ -2,6 +2,7 @@
 // Rays between surfaces: what every integrator needs, whatever it estimates.
 
 #include "render/integrators/media_at.h"
+#include "render/integrators/medium_way.h"
 #include "render/integrators/ray_counts.h"
 #include "render/world/surface_relief.h"
 #include "render/world/texture_point.h"
@@ -19,6 +20,7 @@ inline Ray spawn_ray(const SurfaceInteraction& s, vec3 w, float time) {
 struct MediaPassage {
   MediumStack media;         ///< where the ray is
   Spectrum transmittance{1}; ///< of the way so far
+  MediumWay* way = nullptr;  ///< if not null: becomes that way, and `transmittance` is left alone
 };
 
 namespace detail {
@@ -56,8 +58,10 @@ struct ShadowTarget {
 };
 /// Share of the light that comes through where a shadow ray goes: 0 or 1, or the product of what the
 /// transparent surfaces and the media there let pass. `media` of its origin are null in scenes without any.
+/// `unscattered`, if not null, becomes the share that media which scatter let pass, as MediumPoint has it.
 Spectrum transmittance(const RenderScene& scene, const Ray& ray, const ShadowTarget& target,
-                       const Sampler& sampler, RayCounts& counts, const MediumStack* media = nullptr);
+                       const Sampler& sampler, RayCounts& counts, const MediumStack* media = nullptr,
+                       Spectrum* unscattered = nullptr);
 
 namespace detail {
 

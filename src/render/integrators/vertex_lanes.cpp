@@ -153,6 +153,26 @@ float VertexLanes::folded_pdf(std::size_t i, vec3 wi_local, DirectionSampling ho
   return pair.keeps != pair.mirrored_keeps ? direction_pdf(bsdf(i), wo_local[i], pair.mirrored, how) : 0;
 }
 
+void VertexLanes::set_in_medium(std::size_t i, vec3 point, vec3 direction, float at_time,
+                                const PhaseFunction& phase) {
+  // No surface: it bounds nothing, and its BSDF is that of the lane.
+  static const SurfaceMaterial nowhere = [] {
+    SurfaceMaterial material;
+    material.varies = true;
+    return material;
+  }();
+  position.set(i, point);
+  position_error.set(i, vec3(0));
+  geometric_normal.set(i, -direction);
+  normal.set(i, -direction);
+  wo_local.set(i, {0, 0, 1});
+  side[i] = 1;
+  time[i] = at_time;
+  light_context[i] = LightSamplingContext::in_volume(point);
+  material[i] = &nowhere;
+  varying[i] = VolumeScattering{phase};
+}
+
 void VertexLanes::set_one(const Vertex& vertex, const Bsdf& bsdf) {
   count = 1;
   position.set(0, vertex.surface.position);

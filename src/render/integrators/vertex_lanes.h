@@ -30,6 +30,10 @@ struct VertexLanes {
   /// Lane 0 is `vertex`, with this BSDF, and there is no other.
   void set_one(const Vertex& vertex, const Bsdf& bsdf);
 
+  /// Lane i is a point in a medium, which a ray of that unit direction and time reaches. Its frame is about
+  /// the way back.
+  void set_in_medium(std::size_t i, vec3 point, vec3 direction, float at_time, const PhaseFunction& phase);
+
   const Bsdf& bsdf(std::size_t i) const { return material[i]->varies ? varying[i] : material[i]->bsdf; }
   /// As folds_directions() has it.
   bool folds(std::size_t i) const { return folds_directions(bsdf(i), normal[i], geometric_normal[i]); }

@@ -3,8 +3,6 @@
 #include "core/error.h"
 #include "materials/material_parts.h"
 
-#include <array>
-#include <map>
 #include <set>
 
 namespace candela {
@@ -34,6 +32,7 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
   scene->has_priorities_ = scene->materials_->has_priorities();
   scene->filters_textures_ = scene->materials_->filters_textures();
   scene->has_media_ = !scene->materials_->media().empty();
+  scene->has_active_media_ = scene->materials_->has_scattering() || scene->materials_->has_medium_emission();
   scene->lights_ = SceneLights::of(document, scene->geometry_, scene->materials_,
                                    previous != nullptr ? previous->lights_ : nullptr, progress);
   scene->layer_count_ = scene->lights_->layers().count();
@@ -58,35 +57,6 @@ void SceneMaterials::add_materials(const Document& document, const MipPyramidSou
     has_transparency_ |= is_null(own) || own.opacity.value < 1 || own.opacity.is_textured();
   }
   add_media(scattering);
-}
-
-void SceneMaterials::add_media(const std::vector<const Material*>& materials) {
-  std::vector<std::optional<Interior>> interiors;
-  bool any = false;
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    std::optional<Interior>& inside = interiors.emplace_back(interior(materials, i));
-    if (!inside) continue;
-    if (materials_[i].emissive) inside->priority = 0; // light sampling counts on its surface's being there
-    has_priorities_ |= inside->priority > 0;
-    any |= inside->priority > 0 || !is_black(inside->absorption);
-  }
-  if (!any) return;
-  std::map<std::array<float, 4>, std::uint16_t> known;
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (!interiors[i]) continue;
-    const vec3 a = interiors[i]->absorption;
-    const float ior = has_priorities_ ? interiors[i]->ior : 1; // else nobody asks
-    const auto [entry, is_new] =
-        known.try_emplace({a.x, a.y, a.z, ior}, static_cast<std::uint16_t>(media_.size()));
-    if (is_new) {
-      media_.emplace_back(AbsorbingMedium{a});
-      media_iors_.push_back(ior);
-    }
-    if (media_.size() >= MediumId::kNone)
-      throw Error(ExitCode::limit, "materials: there are more than 65534 different absorptions: use fewer");
-    const auto priority = static_cast<std::int16_t>(interiors[i]->priority);
-    materials_.set_medium_inside(i, {entry->second, priority});
-  }
 }
 
 /// `layers[index]` is that of the light.

@@ -36,6 +36,13 @@ public:
   bool has_media() const { return has_media_; }
   /// Whether any texture is looked up over the footprint of a ray, so that rays must carry cones.
   bool filters_textures() const { return filters_textures_; }
+  /// Whether any medium scatters or sends out light, so that more happens between surfaces than absorption.
+  bool has_active_media() const { return has_active_media_; }
+  /// What fills a place that lies in those bodies.
+  MediumId filling(const MediumStack& bodies) const {
+    const MediumId inside = bodies.current();
+    return inside ? inside : materials_->world_medium();
+  }
   const Medium& medium(MediumId id) const { return materials_->media()[id.index]; }
   /// Index of refraction over vacuum; 1 of no medium.
   float ior(MediumId id) const { return id ? materials_->media_iors()[id.index] : 1; }
@@ -55,6 +62,8 @@ public:
   std::uint8_t layer_of_material(std::uint32_t material) const {
     return lights_->layers().of_material[material];
   }
+  /// The layer of what media send out, which belong to no group.
+  std::uint8_t layer_of_media() const { return static_cast<std::uint8_t>(lights_->layers().names.size()); }
   const std::vector<std::uint32_t>& infinite_lights() const { return lights_->infinite_lights(); }
 
   /// Choice of a light as path.light_choice has it: among all, or among those that light sampling alone can
@@ -72,7 +81,7 @@ private:
   // Of *materials_, where every ray reads them.
   const SurfaceMaterial* surfaces_ = nullptr;
   bool has_transparency_ = false, has_invisible_ = false, has_priorities_ = false, has_media_ = false,
-       filters_textures_ = false;
+       has_active_media_ = false, filters_textures_ = false;
   std::size_t layer_count_ = 0;
 };
 

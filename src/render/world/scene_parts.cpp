@@ -42,7 +42,9 @@ bool emits_alike(const SurfaceMaterial& a, const SurfaceMaterial& b) {
 SceneMaterials::SceneMaterials(const Document& document, const SceneMaterials* previous,
                                const Progress* progress)
     : source_(has_factors(document) ? grouped_materials(document.scene) : document.scene.materials),
-      textures_(document.scene.textures), override_(document.settings.override_brdf) {
+      textures_(document.scene.textures), override_(document.settings.override_brdf),
+      source_media_(has_factors(document) ? grouped_media(document.scene) : document.scene.media),
+      source_world_(document.scene.medium) {
   add_materials(document, [&](const ImageTexture& image, ColorSpace space) {
     auto fits = [&](const auto& pyramid) {
       return pyramid->texels() == image.texels && pyramid->color_space() == space;
@@ -67,7 +69,10 @@ std::shared_ptr<const SceneMaterials> SceneMaterials::of(const Document& documen
       is_grouped(previous->source_, document.scene, has_factors(document), document.scene.materials,
                  grouped_materials) &&
       previous->textures_ == document.scene.textures &&
-      previous->override_ == document.settings.override_brdf)
+      previous->override_ == document.settings.override_brdf &&
+      is_grouped(previous->source_media_, document.scene, has_factors(document), document.scene.media,
+                 grouped_media) &&
+      previous->source_world_ == document.scene.medium)
     return previous;
   return std::make_shared<const SceneMaterials>(document, previous.get(), progress);
 }

@@ -12,6 +12,9 @@
 #include "render/world/surface_material.h"
 #include "scene/light_layers.h"
 
+#include <map>
+#include <tuple>
+
 namespace candela {
 
 /// A document's materials.
@@ -36,6 +39,10 @@ public:
   bool has_invisible() const { return has_invisible_; }
   bool filters_textures() const { return materials_.filters_textures(); }
   const std::vector<Medium>& media() const { return media_; }
+  /// What fills the places that lie in no body; none: nothing.
+  MediumId world_medium() const { return world_medium_; }
+  bool has_scattering() const { return has_scattering_; }
+  bool has_medium_emission() const { return has_emission_; }
   /// Parallel to media(): their index of refraction over vacuum.
   const std::vector<float>& media_iors() const { return media_iors_; }
   bool has_priorities() const { return has_priorities_; }
@@ -44,17 +51,24 @@ public:
 private:
   void add_materials(const Document& document, const MipPyramidSource& pyramids);
   void add_media(const std::vector<const Material*>& materials);
+  std::uint16_t medium_index(const std::string& name, vec3 absorption, float ior);
 
   // Made of:
   std::vector<Material> source_; ///< with the factors of their groups where these are part of the scene
   std::vector<std::shared_ptr<const Texture>> textures_;
   OverrideSettings override_;
+  std::vector<MediumDesc> source_media_;
+  std::string source_world_; ///< SceneDesc::medium
 
   std::vector<std::shared_ptr<const MipPyramid>> pyramids_; ///< what materials_ point to
   SurfaceMaterials materials_;
   bool has_transparency_ = false, has_invisible_ = false, has_priorities_ = false;
-  std::vector<Medium> media_; ///< empty where nothing absorbs or has a priority
+  std::vector<Medium> media_; ///< empty where nothing fills anything, or has a priority
   std::vector<float> media_iors_;
+  std::map<std::tuple<std::string, float, float, float, float>, std::uint16_t>
+      known_media_; ///< medium_index()
+  MediumId world_medium_;
+  bool has_scattering_ = false, has_emission_ = false; ///< any of the media
 };
 
 /// Whether surfaces of either material are the same lights. Textures are compared by their addresses: the

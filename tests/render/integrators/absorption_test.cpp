@@ -154,8 +154,38 @@ TEST(AbsorptionRender, APointLightInGlassFades) {
   }
 }
 
+/// Light that a rough surface lets out or in has passed through the glass on its own side alone.
+TEST(AbsorptionStatistical, StrategiesAgreeThroughARoughSurface) {
+  for (const bool inside : {false, true}) {
+    SceneMaker s(8, 8, 4096);
+    Material rough;
+    rough.model = RoughDielectricMaterial{.ior = 1.3f, .roughness = 0.7f, .absorption = {1.5f, 0.7f, 0}};
+    s.sphere({0, 0, 0}, 1, s.material(rough));
+    s.rectangle({0, 0, inside ? -0.4f : -2}, {0.3f, 0, 0}, {0, 0.3f, 0}, s.diffuse(vec3(0), vec3(5)));
+    s.camera({0, 0, 3}, {0, 0, 0}, 25);
+    s.document.settings.sampler.type = SamplerType::independent;
+    glm::dvec3 value[2] = {}, variance[2] = {};
+    for (int k = 0; k < 2; ++k) {
+      s.document.settings.path.light_sampling = k == 0 ? LightSampling::bsdf : LightSampling::mis;
+      s.document.settings.sampler.seed = sampler_seed(20 + static_cast<std::uint64_t>(k));
+      const Film film = render(s.document);
+      for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) {
+          value[k] += glm::dvec3(film.mean(x, y));
+          variance[k] += glm::dvec3(film.variance_of_mean(x, y));
+        }
+    }
+    for (int c = 0; c < 3; ++c) {
+      const double deviation = std::sqrt(variance[0][c] + variance[1][c]);
+      EXPECT_GT(normal_p_value((value[0][c] - value[1][c]) / deviation), sidak_threshold(6))
+          << value[0][c] << " against " << value[1][c] << "; " << seed_note();
+      EXPECT_LT(deviation, 0.01 * value[1][c]) << "too few samples to tell";
+    }
+  }
+}
+
 Spectrum sigma_a(const RenderScene& scene, MediumId medium) {
-  return std::get<AbsorbingMedium>(scene.medium(medium)).sigma_a;
+  return std::get<HomogeneousMedium>(scene.medium(medium)).sigma_a;
 }
 
 TEST(Absorption, WhatAPointLiesIn) {

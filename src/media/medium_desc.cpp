@@ -1,0 +1,147 @@
+#include "media/medium_desc.h"
+
+#include "core/model_fields.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace candela {
+
+namespace {
+
+constexpr auto kMediumNames = model_names<MediumDesc>();
+constexpr auto kPhaseNames = model_names<PhaseDesc>();
+
+/// "isotropic: …; rayleigh: …", as the models describe themselves.
+template <class Owner>
+std::string models_help() {
+  std::string out;
+  [&]<std::size_t... Type>(std::index_sequence<Type...>) {
+    ((out += fmt::format("{}{}: {}", Type > 0 ? "; " : "", ModelOf<Owner, Type>::kName,
+                         ModelOf<Owner, Type>::kHelp)),
+     ...);
+  }
+  (ModelTypes<Owner>());
+  return out;
+}
+
+const Field<MediumDesc> kCommonFields[] = {
+    {{"sigma_t",
+      FieldType::color,
+      0,
+      1e6,
+      "1/scene unit",
+      "Extinction coefficient: light goes 1 / (sigma_t scale) on the mean before it is scattered or absorbed",
+      Invalidates::image,
+      {},
+      true},
+     [](MediumDesc& m) -> void* { return &m.sigma_t; }},
+    {{"albedo", FieldType::color, 0, 1, "", "Share of that light which is scattered; the rest is absorbed"},
+     [](MediumDesc& m) -> void* { return &m.albedo; }},
+    {{"scale",
+      FieldType::real,
+      0,
+      1e6,
+      "",
+      "Multiplies sigma_t: how dense it is",
+      Invalidates::image,
+      {},
+      true},
+     [](MediumDesc& m) -> void* { return &m.scale; }},
+    {{"emission",
+      FieldType::color,
+      0,
+      1e9,
+      "W/(m^2 sr)",
+      "Radiance of a thick body of it, if it did not scatter: it sends out sigma_t (1 - albedo) of that on a "
+      "way of "
+      "one scene unit",
+      Invalidates::image,
+      {},
+      true},
+     [](MediumDesc& m) -> void* { return &m.emission; }},
+};
+
+/// Values of the same key and type stay.
+constexpr auto kCopyAlike = [](const auto& to, auto& changed, const auto& from, auto& old) {
+  if (to.type == from.type) field_copy(to, to.address(changed), from.address(old));
+};
+
+std::span<const Field<MediumDesc>> fields_of_medium_type(int type) {
+  static const auto tables = model_tables<MediumDesc, Field<MediumDesc>>(
+      []<std::size_t Type, std::size_t Row>() { return model_field<MediumDesc, Type, Row>(); },
+      [](auto) { return std::span(kCommonFields); });
+  return tables[static_cast<std::size_t>(type)];
+}
+
+std::span<const Field<PhaseDesc>> fields_of_phase_type(int type) {
+  static const auto tables = model_tables<PhaseDesc, Field<PhaseDesc>>(
+      []<std::size_t Type, std::size_t Row>() { return model_field<PhaseDesc, Type, Row>(); },
+      [](auto) { return std::span<const Field<PhaseDesc>>(); });
+  return tables[static_cast<std::size_t>(type)];
+}
+
+template <class Owner>
+std::string rows_problem(std::span<const Field<Owner>> rows, const Owner& owner, std::string_view prefix) {
+  for (const auto& row : rows)
+    if (auto problem = field_problem(row, row.address(const_cast<Owner&>(owner))); !problem.empty())
+      return fmt::format("{}{}: {}; give {}", prefix, row.key, problem, field_domain(row));
+  return {};
+}
+
+} // namespace
+
+const FieldInfo& medium_type_field() {
+  static const std::string help = models_help<MediumDesc>();
+  static const FieldInfo field{"type", FieldType::choice, 0, 0, "", help, Invalidates::image, kMediumNames};
+  return field;
+}
+const FieldInfo& phase_type_field() {
+  static const std::string help = "Where light goes that is scattered: " + models_help<PhaseDesc>();
+  static const FieldInfo field{"type", FieldType::choice, 0, 0, "", help, Invalidates::image, kPhaseNames};
+  return field;
+}
+
+MediumDesc default_medium(int type) { return with_model<MediumDesc>(type); }
+PhaseDesc default_phase(int type) { return with_model<PhaseDesc>(type); }
+
+void change_type(MediumDesc& medium, int type) {
+  const PhaseDesc phase = medium.phase;
+  change_model(medium, type, fields_of_medium_type, kCopyAlike);
+  medium.phase = phase;
+}
+void change_type(PhaseDesc& phase, int type) { change_model(phase, type, fields_of_phase_type, kCopyAlike); }
+
+std::span<const Field<MediumDesc>> medium_fields(const MediumDesc& medium) {
+  return fields_of_medium_type(medium_type(medium));
+}
+std::span<const Field<PhaseDesc>> phase_fields(const PhaseDesc& phase) {
+  return fields_of_phase_type(phase_type(phase));
+}
+
+Medium make_medium(const MediumDesc& medium, Spectrum absorption) {
+  const Spectrum sigma_t = medium.sigma_t * medium.scale;
+  const PhaseFunction phase =
+      std::visit([](const auto& model) -> PhaseFunction { return model.closure(); }, medium.phase.model);
+  return HomogeneousMedium{sigma_t * (1.0f - medium.albedo) + absorption, sigma_t * medium.albedo,
+                           medium.emission, phase};
+}
+
+std::string media_problem(const std::vector<MediumDesc>& media) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < media.size(); ++i) {
+    const MediumDesc& medium = media[i];
+    const std::string at = fmt::format("media[{}].", i);
+    if (medium.name.empty()) return at + "name: is empty; give the name by which materials refer to it";
+    if (!names.insert(medium.name).second)
+      return fmt::format("{}name: '{}' is there twice; give each its own", at, medium.name);
+    if (auto problem = rows_problem(medium_fields(medium), medium, at); !problem.empty()) return problem;
+    if (auto problem = rows_problem(phase_fields(medium.phase), medium.phase, at + "phase.");
+        !problem.empty())
+      return problem;
+  }
+  return {};
+}
+
+} // namespace candela

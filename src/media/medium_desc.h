@@ -1,0 +1,71 @@
+#pragma once
+// Media of every model as scenes describe them, and their rows.
+
+#include "media/medium.h"
+
+#include <string>
+#include <vector>
+
+namespace candela {
+
+/// The row of one value of a model of media.
+template <class Model>
+struct MediumRow : FieldInfo {
+  std::variant<float Model::*, vec3 Model::*, int Model::*> member;
+};
+
+/// The same everywhere.
+struct HomogeneousMediumModel {
+  bool operator==(const HomogeneousMediumModel&) const = default;
+
+  static constexpr std::string_view kName = "homogeneous";
+  static constexpr std::string_view kHelp = "the same everywhere";
+  static constexpr auto rows() { return std::array<MediumRow<HomogeneousMediumModel>, 0>{}; }
+};
+
+using MediumDescModel = std::variant<HomogeneousMediumModel>;
+
+/// A phase function and its values, as a part of a medium.
+struct PhaseDesc {
+  std::string name{}; ///< none: it is the medium's
+  PhaseModel model;
+  bool operator==(const PhaseDesc&) const = default;
+};
+
+/// What surfaces or the whole scene may be filled with, by its name.
+struct MediumDesc {
+  std::string name;
+  MediumDescModel model;
+  vec3 sigma_t{1};    ///< extinction coefficient, 1/scene unit, times `scale`
+  vec3 albedo{0.75f}; ///< of each collision: the share of the light that is scattered
+  float scale = 1;
+  vec3 emission{0}; ///< of HomogeneousMedium
+  PhaseDesc phase;
+  bool operator==(const MediumDesc&) const = default;
+};
+
+/// Choices over an int, the type by its index in the list: for files and panels.
+const FieldInfo& medium_type_field();
+const FieldInfo& phase_type_field();
+inline int medium_type(const MediumDesc& medium) { return static_cast<int>(medium.model.index()); }
+inline int phase_type(const PhaseDesc& phase) { return static_cast<int>(phase.model.index()); }
+
+/// Of the type, with default values.
+MediumDesc default_medium(int type);
+PhaseDesc default_phase(int type);
+/// Changes the type. Values of the same key stay, the others become the new type's defaults.
+void change_type(MediumDesc& medium, int type);
+void change_type(PhaseDesc& phase, int type);
+
+/// The rows of a medium's values but its phase function's: those of its type, then those of all. The
+/// addresses are those in a MediumDesc of this type.
+std::span<const Field<MediumDesc>> medium_fields(const MediumDesc& medium);
+std::span<const Field<PhaseDesc>> phase_fields(const PhaseDesc& phase);
+
+/// As transport needs it, with an absorption coefficient (1/scene unit) added.
+Medium make_medium(const MediumDesc& medium, Spectrum absorption = Spectrum(0));
+
+/// What is wrong with the media of a scene: "media[0].name: cause; remedy"; empty if all is well.
+std::string media_problem(const std::vector<MediumDesc>& media);
+
+} // namespace candela

@@ -1,0 +1,104 @@
+#pragma once
+// The way of a ray through media, from where it starts to a surface or out of the scene, and where on it
+// light is scattered.
+
+#include "media/medium.h"
+#include "media/medium_stack.h"
+
+#include <optional>
+#include <vector>
+
+namespace candela {
+
+/// A stretch of the ray that lies in one medium, or in none.
+struct MediumStretch {
+  vec3 origin;          ///< where it begins
+  float begin, end;     ///< distances along the ray, scene units; the last one's end may be infinite
+  MediumStack bodies;   ///< that it lies in
+  const Medium* medium; ///< null: nothing is there
+};
+
+/// A place on the way.
+struct MediumPoint {
+  float distance; ///< along the ray, scene units
+  const MediumStretch* stretch;
+  Spectrum transmittance; ///< of the way to it
+  Spectrum unscattered;   ///< the same, where media that do not scatter are left out
+};
+
+/// With what probability a random distance is that of each channel, where their extinction differs; they add
+/// up to 1. The density of a distance is the mixture of the channels' (one-sample MIS with the balance
+/// heuristic; Veach 1997, section 9.2.4), so that one path carries all of them. In proportion to the path's
+/// throughput (Chiang et al. 2016, "Practical and Controllable Subsurface Scattering", section 4): after a
+/// stretch it is then what it would have been for the whole way at once.
+Spectrum channel_probabilities(Spectrum throughput);
+
+/// Kept from ray to ray, for it keeps its memory.
+class MediumWay {
+public:
+  void start(vec3 direction);
+  /// The next stretch.
+  void add(vec3 origin, float length, const MediumStack& bodies, const Medium* medium);
+
+  bool scatters() const { return scatters_; }
+  bool emits() const { return emits_; }
+  /// Of all of it.
+  Spectrum transmittance() const { return transmittance_; }
+  Spectrum unscattered() const { return unscattered_; }
+  /// Radiance that all of it sends to its start, without what it scatters.
+  Spectrum emitted() const;
+
+  /// What lies at that distance; one stretch does.
+  MediumPoint at(float distance) const;
+  vec3 position(const MediumPoint& point) const {
+    return point.stretch->origin + (point.distance - point.stretch->begin) * direction_;
+  }
+
+  // Distances of collisions, of the density (1/scene unit) p(t) = sum over channels of
+  //     probability x sigma_t x exp(-integral of sigma_t up to t),
+  // where sigma_t counts media that scatter alone. It integrates to 1 - the probability of no collision.
+
+  /// u.x chooses the channel, u.y the distance. Nothing: it comes through.
+  std::optional<MediumPoint> sample_collision(Spectrum channels, vec2 u) const;
+  float collision_pdf(const MediumPoint& point, Spectrum channels) const;
+  float pass_probability(Spectrum channels) const { return glm::dot(channels, unscattered_); }
+
+  // The same for a collision that is made to happen: each channel's density is divided by its integral.
+
+  std::optional<MediumPoint> sample_forced_collision(Spectrum channels, vec2 u) const;
+  float forced_collision_pdf(const MediumPoint& point, Spectrum channels) const;
+
+  /// From where to where media scatter; what lies between may not.
+  float scattering_begin() const { return scattering_begin_; }
+  float scattering_end() const { return scattering_end_; }
+
+private:
+  std::optional<MediumPoint> at_depth(int channel, float optical_depth) const;
+
+  vec3 direction_{0};
+  std::vector<MediumStretch> stretches_;
+  bool scatters_ = false, emits_ = false;
+  Spectrum transmittance_{1}, unscattered_{1};
+  float scattering_begin_ = 0, scattering_end_ = 0;
+};
+
+/// Distances along a ray whose density is in proportion to 1 / (squared distance to a point): Kulla & Fajardo
+/// 2012, "Importance Sampling Techniques for Path Tracing in Participating Media", section 3.1 (equiangular).
+class EquiangularSampling {
+public:
+  /// Between two distances of a ray of unit direction; `end` may be infinite.
+  EquiangularSampling(vec3 origin, vec3 direction, vec3 point, float begin, float end);
+
+  float sample(float u) const;
+  float pdf(float distance) const; ///< 1/scene unit
+
+private:
+  static constexpr float kSteepest = 1.5707960f; ///< below a right angle, whose tangent changes its sign
+
+  float begin_, end_;
+  float nearest_; ///< distance along the ray of what is nearest to the point
+  float height_;  ///< of the point over that
+  float angle_begin_, angle_end_;
+};
+
+} // namespace candela

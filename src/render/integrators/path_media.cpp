@@ -1,0 +1,177 @@
+// What happens to paths between surfaces, where media scatter or shine.
+//
+// Light that is scattered once towards the eye is the integral, over the distance t on a ray and the
+// direction to a light, of sigma_s x transmittance x phase function x radiance. Two strategies sample it: a
+// collision of the path itself, at a distance of the density p, which then meets the light; and light
+// sampling, at a distance of its own, whose density q is a mixture of
+// - a collision that is made to happen, for thin media, which paths mostly pass; and
+// - equiangular sampling about a place on a light (Kulla & Fajardo 2012), for what is near to lights.
+// The place is chosen first, with random numbers that both strategies share. Given it both densities are
+// known, so they are combined by MIS.
+
+#include "render/integrators/path_integrator.h"
+
+namespace candela {
+
+namespace {
+
+const PhaseFunction& phase_of(const MediumPoint& point) {
+  return visit_variant([](const auto& m) -> const PhaseFunction& { return m.phase; }, *point.stretch->medium);
+}
+Spectrum sigma_s_of(const MediumPoint& point) {
+  return visit_variant([](const auto& m) { return m.sigma_s; }, *point.stretch->medium);
+}
+bool scatters_at(const MediumPoint& point) {
+  return point.stretch->medium != nullptr && medium_scatters(*point.stretch->medium);
+}
+
+} // namespace
+
+/// Through surfaces that are passed and media, to a collision in one of them or beyond all. A ray that may
+/// not be followed by another segment is weighted by the transmittance; else it comes through with a
+/// probability.
+PathTracer::RayEnd PathTracer::pass_active_media(std::size_t index, bool met, Hit& hit, int depth) {
+  Path& path = paths_[index];
+  const Ray ray = path.ray; // before it is moved behind surfaces that it passes
+  MediaPassage passage{media_[index], Spectrum(1), &way_};
+  met = intersect_through_opacity(scene_, path.ray, path.sampler, met, hit, counts_, &passage,
+                                  cone_of_view(path));
+  const RayEnd end = met ? RayEnd::surface : RayEnd::escaped;
+  if (way_.emits() && shows_depth(settings_, depth)) add_medium_emission(path, way_.emitted(), depth);
+  if (way_.scatters()) {
+    const Spectrum channels = channel_probabilities(path.throughput);
+    if (depth < last_depth_) {
+      const auto collision = way_.sample_collision(channels, path.sampler.get_2d(Dimension::medium_distance));
+      const float pdf_ratio =
+          choose_light_vertex(path, ray, channels, collision ? &*collision : nullptr, depth);
+      if (collision) {
+        path.throughput *=
+            sigma_s_of(*collision) * collision->transmittance / way_.collision_pdf(*collision, channels);
+        media_[index] = collision->stretch->bodies;
+        collisions_.push_back({&path, way_.position(*collision), &phase_of(*collision), path.throughput,
+                               collision->stretch->bodies, pdf_ratio});
+        return RayEnd::collision;
+      }
+    }
+    const float passes = way_.pass_probability(channels);
+    path.bsdf_pdf *= average(way_.unscattered()); // as DirectLight::passed() has it
+    if (depth < last_depth_) path.throughput *= passes > 0 ? 1 / passes : 0;
+  }
+  path.throughput *= way_.transmittance();
+  media_[index] = passage.media;
+  return end;
+}
+
+/// Equiangular sampling about a place on a light that matters at some collision; nothing where it is none, or
+/// infinitely far.
+std::optional<EquiangularSampling> PathTracer::equiangular_about_light(const Path& path, const Ray& ray,
+                                                                       Spectrum channels) const {
+  const LightSelection& selection =
+      settings_.light_sampling != LightSampling::bsdf ? scene_.all_lights() : scene_.delta_lights();
+  const vec2 u = path.sampler.get_2d(Dimension::medium_pivot, 0);
+  const auto somewhere = way_.sample_forced_collision(channels, {u.x, 0.5f});
+  if (!somewhere || selection.empty()) return std::nullopt;
+  const LightSamplingContext context = LightSamplingContext::in_volume(way_.position(*somewhere));
+  const auto choice = selection.choose(context, u.y);
+  if (!choice) return std::nullopt;
+  const auto sample =
+      sample_light(scene_.lights()[choice->light], context, path.sampler.get_2d(Dimension::medium_pivot, 1));
+  if (!sample || sample->infinite) return std::nullopt;
+  return EquiangularSampling(ray.origin, ray.direction, sample->point, way_.scattering_begin(),
+                             way_.scattering_end());
+}
+
+/// Chooses a point on the ray that lights are sampled for, light_vertices_. Returns MediumVertex::pdf_ratio
+/// of the path's own collision, if there is one.
+float PathTracer::choose_light_vertex(Path& path, const Ray& ray, Spectrum channels,
+                                      const MediumPoint* collision, int depth) {
+  if (!shows_depth(settings_, depth + 1)) return kInfinity;
+  std::optional<EquiangularSampling> equiangular;
+  if (settings_.medium_sampling != MediumSampling::distance)
+    equiangular = equiangular_about_light(path, ray, channels);
+  const float share = !equiangular ? 0 : settings_.medium_sampling == MediumSampling::equiangular ? 1 : 0.5f;
+  auto density = [&](const MediumPoint& point) {
+    float pdf = 0;
+    if (share < 1) pdf += (1 - share) * way_.forced_collision_pdf(point, channels);
+    if (share > 0) pdf += share * equiangular->pdf(point.distance);
+    return pdf;
+  };
+  auto ratio = [&](const MediumPoint& point, float pdf) { return way_.collision_pdf(point, channels) / pdf; };
+
+  vec2 u = path.sampler.get_2d(Dimension::medium_direct);
+  std::optional<MediumPoint> point;
+  if (u.x < share) {
+    point = way_.at(equiangular->sample(u.y));
+  } else {
+    u.x = (u.x - share) / (1 - share);
+    point = way_.sample_forced_collision(channels, u);
+  }
+  if (point && scatters_at(*point)) {
+    const float pdf = density(*point);
+    const Spectrum throughput = path.throughput * sigma_s_of(*point) * point->transmittance / pdf;
+    if (!is_black(throughput))
+      light_vertices_.push_back({&path, way_.position(*point), &phase_of(*point), throughput,
+                                 point->stretch->bodies, ratio(*point, pdf)});
+  }
+  return collision != nullptr ? ratio(*collision, density(*collision)) : 0;
+}
+
+/// Emission of media belongs to no group of lights.
+void PathTracer::add_medium_emission(const Path& path, Spectrum emission, int depth) {
+  const Spectrum light_found = path.throughput * emission;
+  results_[path.result].add(light_found, depth);
+  if (!layers_.empty()) layer(path, scene_.layer_of_media()).add(light_found, depth);
+}
+
+/// Next-event estimation at light_vertices_.
+void PathTracer::sample_lights_in_media(int depth, StopPoll& stop) {
+  for (std::size_t begin = 0; begin < light_vertices_.size(); begin += kLaneCount) {
+    const auto vertices =
+        std::span(light_vertices_).subspan(begin, std::min(kLaneCount, light_vertices_.size() - begin));
+    vertices_.count = shading_points_.count = vertices.size();
+    shading_points_.coherent = false;
+    shading_points_.draw = 1; // the segment may end at a surface, which has the numbers of 0
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+      const MediumVertex& v = vertices[i];
+      vertices_.set_in_medium(i, v.position, v.path->ray.direction, v.path->ray.time, *v.phase);
+      shading_points_.lane[i] = i;
+      shading_points_.sampler[i] = &v.path->sampler;
+      shading_points_.bsdf_samples[i] = static_cast<float>(branches_at(*v.path, false)) * v.pdf_ratio;
+      shading_points_.media[i] = &v.bodies;
+    }
+    direct_light_.estimate(scene_, vertices_, shading_points_, settings_, counts_, stop);
+    if (stop.asked()) return;
+    for (std::uint32_t i = 0; i < vertices.size(); ++i)
+      results_[vertices[i].path->result].add_light_sampled(vertices[i].throughput * shading_points_.light[i],
+                                                           depth + 1);
+    if (layers_.empty()) continue;
+    for (const LayeredLight& part : layered_light_) {
+      const MediumVertex& v = vertices[part.lane];
+      layer(*v.path, part.layer).add(v.throughput * part.light, depth + 1);
+    }
+  }
+}
+
+/// The paths that collided go on in a direction of the phase function.
+void PathTracer::scatter_in_media(int depth, StopPoll& stop) {
+  for (std::size_t begin = 0; begin < collisions_.size(); begin += kLaneCount) {
+    if (stop.asked()) return;
+    const auto vertices =
+        std::span(collisions_).subspan(begin, std::min(kLaneCount, collisions_.size() - begin));
+    vertices_.count = vertices.size();
+    vertices_.blends.clear();
+    scattering_.clear();
+    scattering_flags_ = BsdfFlags::none;
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+      const MediumVertex& v = vertices[i];
+      vertices_.set_in_medium(i, v.position, v.path->ray.direction, v.path->ray.time, *v.phase);
+      const int branches = branches_at(*v.path, false);
+      v.path->split = true;
+      scattering_flags_ |= bsdf_flags(vertices_.varying[i]);
+      scattering_.push_back({v.path, i, branches, v.pdf_ratio});
+    }
+    for (std::uint32_t branch = 0; sample_bsdfs(branch, depth); ++branch) continue_paths();
+  }
+}
+
+} // namespace candela

@@ -1,0 +1,120 @@
+// Every way to sample light in media has the same expectation.
+
+#include "render/media_testing.h"
+
+namespace candela::test {
+namespace {
+
+/// A floor and a wall in a great ball of coloured fog, with a ball of denser smoke, a lamp with an area, a
+/// directional light and a sky, a glossy ball and a ball of glass with milk in it. No point light: where
+/// places are not chosen for its sake it has no finite variance.
+SceneMaker foggy_room(int size, int spp) {
+  SceneMaker s(size, size, spp);
+  const std::string fog = add_medium(s, {0.15f, 0.3f, 0.6f}, {0.9f, 0.7f, 0.5f}, HenyeyGreensteinPhase{0.4f});
+  const std::string smoke = add_medium(s, {3, 2, 1}, {0.4f, 0.8f, 0.9f}, HenyeyGreensteinPhase{-0.4f});
+  const std::string milk = add_medium(s, {5, 7, 9}, vec3(0.95f));
+  s.sphere({0, 0, 0}, 3, boundary(s, fog));
+  const int wall = s.diffuse({0.7f, 0.6f, 0.4f});
+  s.rectangle({0, -1, 0}, {0, 0, 2}, {2, 0, 0}, wall);
+  s.rectangle({0, 0, -1.5f}, {2, 0, 0}, {0, 2, 0}, wall);
+  s.rectangle({0, 1.9f, 0}, {0.5f, 0, 0}, {0, 0, 0.5f}, s.diffuse(vec3(0), vec3(8, 6, 4)));
+  s.sphere({-0.8f, 0, 0}, 0.7f, boundary(s, smoke));
+  Material glass;
+  glass.model = DielectricMaterial{.ior = 1.3f};
+  glass.medium = milk;
+  s.sphere({0.9f, -0.3f, 0.2f}, 0.6f, s.material(glass));
+  Material gloss;
+  gloss.model = GgxMaterial{};
+  s.sphere({0.1f, -0.6f, 1}, 0.35f, s.material(gloss));
+  add_directional(s, {0.3f, -1, -0.5f}, {1, 0.9f, 0.7f});
+  s.constant_light({0.1f, 0.15f, 0.3f});
+  s.camera({0, 0.4f, 1.9f}, {0, 0.1f, 0}, 60);
+  s.document.settings.sampler.type = SamplerType::independent;
+  return s;
+}
+
+/// The sum over all pixels, and its variance.
+struct Sum {
+  glm::dvec3 value{0}, variance{0};
+};
+Sum sum_of(const Document& document) {
+  const Film film = render(document);
+  Sum sum;
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x) {
+      sum.value += glm::dvec3(film.mean(x, y));
+      sum.variance += glm::dvec3(film.variance_of_mean(x, y));
+    }
+  return sum;
+}
+
+void expect_strategies_agree(int spp, double tolerance) {
+  struct Variation {
+    const char* name;
+    std::function<void(PathSettings&)> apply;
+  };
+  const Variation variations[] = {
+      {"mis", [](PathSettings&) {}},
+      {"nee", [](PathSettings& p) { p.light_sampling = LightSampling::nee; }},
+      {"bsdf", [](PathSettings& p) { p.light_sampling = LightSampling::bsdf; }},
+      {"distance", [](PathSettings& p) { p.medium_sampling = MediumSampling::distance; }},
+      {"equiangular", [](PathSettings& p) { p.medium_sampling = MediumSampling::equiangular; }},
+      {"distance, nee",
+       [](PathSettings& p) {
+         p.medium_sampling = MediumSampling::distance, p.light_sampling = LightSampling::nee;
+       }},
+      {"balance, four shadow rays",
+       [](PathSettings& p) { p.mis_heuristic = MisHeuristic::balance, p.light_samples = 4; }},
+      {"one path", [](PathSettings& p) { p.split = 1; }},
+      {"four paths", [](PathSettings& p) { p.split = 4; }},
+      {"lights by power", [](PathSettings& p) { p.light_choice = LightChoiceBy::power; }},
+      {"fixed roulette", [](PathSettings& p) { p.rr = RussianRoulette::fixed, p.rr_probability = 0.8f; }},
+      {"uniform directions", [](PathSettings& p) { p.direction_sampling = DirectionSampling::uniform; }},
+  };
+  SceneMaker s = foggy_room(12, spp);
+  s.document.settings.path.max_depth = 12;
+  std::vector<Sum> sums;
+  for (const Variation& v : variations) {
+    Document document = s.document;
+    v.apply(document.settings.path);
+    document.settings.sampler.seed = sampler_seed(sums.size());
+    sums.push_back(sum_of(document));
+    const Sum &own = sums.back(), &first = sums.front();
+    for (int c = 0; c < 3; ++c) {
+      const double deviation = std::sqrt(own.variance[c] + first.variance[c]);
+      EXPECT_GT(normal_p_value((own.value[c] - first.value[c]) / deviation),
+                sidak_threshold(static_cast<int>(3 * std::size(variations))))
+          << v.name << ", channel " << c << ": " << own.value[c] << " against " << first.value[c] << ", "
+          << deviation << "; " << seed_note();
+      EXPECT_LT(deviation, tolerance * own.value[c]) << v.name << ": too few samples to tell";
+    }
+  }
+}
+
+TEST(MediaStatistical, StrategiesAgree) { expect_strategies_agree(384, 0.06); }
+TEST(MediaHeavy, StrategiesAgree) { expect_strategies_agree(20000, 0.008); }
+
+/// Single lengths of paths, which a limit of depth must not touch.
+TEST(MediaStatistical, TheLengthsOfPathsAddUp) {
+  SceneMaker s = foggy_room(8, 512);
+  s.document.settings.path.max_depth = 4;
+  const Sum all = [&] {
+    s.document.settings.sampler.seed = sampler_seed(50);
+    return sum_of(s.document);
+  }();
+  Sum parts;
+  for (int depth = 1; depth <= 4; ++depth) {
+    s.document.settings.path.only_depth = depth;
+    s.document.settings.sampler.seed = sampler_seed(50 + static_cast<std::uint64_t>(depth));
+    const Sum part = sum_of(s.document);
+    parts.value += part.value, parts.variance += part.variance;
+  }
+  for (int c = 0; c < 3; ++c)
+    EXPECT_GT(
+        normal_p_value((all.value[c] - parts.value[c]) / std::sqrt(all.variance[c] + parts.variance[c])),
+        sidak_threshold(3))
+        << all.value[c] << " against " << parts.value[c] << "; " << seed_note();
+}
+
+} // namespace
+} // namespace candela::test
