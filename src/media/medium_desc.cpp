@@ -27,24 +27,12 @@ std::string models_help() {
 }
 
 const Field<MediumDesc> kCommonFields[] = {
-    {{"sigma_t",
-      FieldType::color,
-      0,
-      1e6,
-      "1/scene unit",
-      "Extinction coefficient: light goes 1 / (sigma_t scale) on the mean before it is scattered or absorbed",
-      Invalidates::image,
-      {},
-      true},
-     [](MediumDesc& m) -> void* { return &m.sigma_t; }},
-    {{"albedo", FieldType::color, 0, 1, "", "Share of that light which is scattered; the rest is absorbed"},
-     [](MediumDesc& m) -> void* { return &m.albedo; }},
     {{"scale",
       FieldType::real,
       0,
       1e6,
       "",
-      "Multiplies sigma_t: how dense it is",
+      "Multiplies the coefficients: how dense it is",
       Invalidates::image,
       {},
       true},
@@ -120,12 +108,32 @@ std::span<const Field<PhaseDesc>> phase_fields(const PhaseDesc& phase) {
   return fields_of_phase_type(phase_type(phase));
 }
 
+namespace {
+
+Medium medium_of(const MediumDesc& desc, const HomogeneousMediumModel& model, const PhaseFunction& phase,
+                 Spectrum absorption) {
+  const Spectrum sigma_t = model.sigma_t * desc.scale;
+  return HomogeneousMedium{sigma_t * (1.0f - model.albedo) + absorption, sigma_t * model.albedo,
+                           desc.emission, phase};
+}
+
+/// By the similarity of phase functions (Wyman, Patterson & Wilson 1989) sigma_s (1 - g) is what was
+/// measured.
+Medium medium_of(const MediumDesc& desc, const MeasuredMediumModel& model, const PhaseFunction& phase,
+                 Spectrum absorption) {
+  const MeasuredMedium& measured = kMeasuredMedia[static_cast<std::size_t>(model.material)];
+  return HomogeneousMedium{measured.sigma_a * desc.scale + absorption,
+                           measured.reduced_sigma_s * (desc.scale / (1 - mean_cosine(phase))), desc.emission,
+                           phase};
+}
+
+} // namespace
+
 Medium make_medium(const MediumDesc& medium, Spectrum absorption) {
-  const Spectrum sigma_t = medium.sigma_t * medium.scale;
   const PhaseFunction phase =
       std::visit([](const auto& model) -> PhaseFunction { return model.closure(); }, medium.phase.model);
-  return HomogeneousMedium{sigma_t * (1.0f - medium.albedo) + absorption, sigma_t * medium.albedo,
-                           medium.emission, phase};
+  return std::visit([&](const auto& model) { return medium_of(medium, model, phase, absorption); },
+                    medium.model);
 }
 
 std::string media_problem(const std::vector<MediumDesc>& media) {

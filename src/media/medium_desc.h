@@ -1,6 +1,7 @@
 #pragma once
 // Media of every model as scenes describe them, and their rows.
 
+#include "media/measured_media.h"
 #include "media/medium.h"
 
 #include <string>
@@ -14,16 +15,61 @@ struct MediumRow : FieldInfo {
   std::variant<float Model::*, vec3 Model::*, int Model::*> member;
 };
 
+// What the description of a medium offers, its model:
+//
+//   kName, kHelp   what files call it, and what it is in a few words
+//   rows()         a std::array of MediumRow, one for each of its values
+//
+// and medium_of(desc, model, phase, absorption), the medium as transport needs it (media/medium.h), with that
+// absorption coefficient (1/scene unit) added.
+
 /// The same everywhere.
 struct HomogeneousMediumModel {
+  vec3 sigma_t{1};    ///< extinction coefficient, 1/scene unit
+  vec3 albedo{0.75f}; ///< of each collision: the share of the light that is scattered
   bool operator==(const HomogeneousMediumModel&) const = default;
 
   static constexpr std::string_view kName = "homogeneous";
   static constexpr std::string_view kHelp = "the same everywhere";
-  static constexpr auto rows() { return std::array<MediumRow<HomogeneousMediumModel>, 0>{}; }
+  static constexpr auto rows() {
+    using Row = MediumRow<HomogeneousMediumModel>;
+    return std::array{
+        Row{{"sigma_t",
+             FieldType::color,
+             0,
+             1e6,
+             "1/scene unit",
+             "Extinction coefficient: light goes 1 / (sigma_t scale) on the mean before it is scattered or "
+             "absorbed",
+             Invalidates::image,
+             {},
+             true},
+            &HomogeneousMediumModel::sigma_t},
+        Row{{"albedo", FieldType::color, 0, 1, "",
+             "Share of that light which is scattered; the rest is absorbed"},
+            &HomogeneousMediumModel::albedo}};
+  }
 };
 
-using MediumDescModel = std::variant<HomogeneousMediumModel>;
+/// A material of measured_media.h.
+struct MeasuredMediumModel {
+  int material = 8; ///< skin1
+  bool operator==(const MeasuredMediumModel&) const = default;
+
+  static constexpr std::string_view kName = "measured";
+  static constexpr std::string_view kHelp =
+      "a measured material by its name, where a scene unit is a millimetre; "
+      "where it is a metre, the scale is 1000";
+  static constexpr auto rows() {
+    return std::array{MediumRow<MeasuredMediumModel>{{"material", FieldType::choice, 0, 0, "",
+                                                      "What was measured (Jensen et al. 2001)",
+                                                      Invalidates::image, kMeasuredNames},
+                                                     &MeasuredMediumModel::material}};
+  }
+};
+
+/// A new one is its struct, and its name here.
+using MediumDescModel = std::variant<HomogeneousMediumModel, MeasuredMediumModel>;
 
 /// A phase function and its values, as a part of a medium.
 struct PhaseDesc {
@@ -36,10 +82,8 @@ struct PhaseDesc {
 struct MediumDesc {
   std::string name;
   MediumDescModel model;
-  vec3 sigma_t{1};    ///< extinction coefficient, 1/scene unit, times `scale`
-  vec3 albedo{0.75f}; ///< of each collision: the share of the light that is scattered
-  float scale = 1;
-  vec3 emission{0}; ///< of HomogeneousMedium
+  float scale = 1;  ///< multiplies the coefficients
+  vec3 emission{0}; ///< as HomogeneousMedium has it
   PhaseDesc phase;
   bool operator==(const MediumDesc&) const = default;
 };

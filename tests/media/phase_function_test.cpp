@@ -119,12 +119,23 @@ TEST(PhaseFunction, DraineWithoutALobeIsRayleigh) {
 
 TEST(MediumDesc, MakesCoefficients) {
   MediumDesc desc;
-  desc.sigma_t = {1, 2, 4}, desc.albedo = {0, 0.5f, 1}, desc.scale = 3;
+  desc.model = HomogeneousMediumModel{{1, 2, 4}, {0, 0.5f, 1}};
+  desc.scale = 3;
   desc.phase.model = HenyeyGreensteinPhase{0.4f};
   const auto medium = std::get<HomogeneousMedium>(make_medium(desc, {0, 0, 1}));
   EXPECT_EQ(medium.sigma_a, vec3(3, 3, 1));
   EXPECT_EQ(medium.sigma_s, vec3(0, 3, 12));
   EXPECT_EQ(mean_cosine(medium.phase), 0.4f);
+}
+
+TEST(MediumDesc, MeasuredScatteringIsReduced) {
+  MediumDesc desc;
+  desc.model = MeasuredMediumModel{3};
+  desc.scale = 10;
+  desc.phase.model = HenyeyGreensteinPhase{0.75f};
+  const auto cream = std::get<HomogeneousMedium>(make_medium(desc));
+  EXPECT_NEAR(cream.sigma_s.x, 10 * 4 * 7.38f, 1e-3f);
+  EXPECT_NEAR(cream.sigma_a.y, 10 * 0.0028f, 1e-6f);
 }
 
 TEST(MediumDesc, ATypeKeepsWhatBothHave) {
@@ -143,7 +154,7 @@ TEST(MediumDesc, ProblemsAreNamed) {
   EXPECT_EQ(media_problem({fog, fog}), "media[1].name: 'fog' is there twice; give each its own");
   EXPECT_EQ(media_problem({MediumDesc{}}).substr(0, 23), "media[0].name: is empty");
   MediumDesc wrong = fog;
-  wrong.albedo = vec3(1.5f);
+  wrong.model = HomogeneousMediumModel{vec3(1), vec3(1.5f)};
   EXPECT_EQ(media_problem({wrong}).substr(0, 16), "media[0].albedo:");
   wrong = fog;
   wrong.phase.model = HenyeyGreensteinPhase{1};

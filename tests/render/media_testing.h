@@ -10,7 +10,8 @@ inline std::string add_medium(SceneMaker& s, vec3 sigma_t, vec3 albedo,
                               const PhaseModel& phase = IsotropicPhase{}) {
   MediumDesc medium;
   medium.name = "medium " + std::to_string(s.document.scene.media.size());
-  medium.sigma_t = sigma_t, medium.albedo = albedo, medium.phase.model = phase;
+  medium.model = HomogeneousMediumModel{sigma_t, albedo};
+  medium.phase.model = phase;
   s.document.scene.media.push_back(medium);
   return medium.name;
 }

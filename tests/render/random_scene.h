@@ -17,6 +17,9 @@ public:
   Document make() {
     const int textures = pick(4);
     for (int i = 0; i < textures; ++i) scene().textures.push_back(texture());
+    const int media = one_in(2) ? 0 : 1 + pick(3);
+    for (int i = 0; i < media; ++i) scene().media.push_back(medium(i));
+    if (media > 0 && one_in(3)) scene().medium = any_medium();
     const int materials = 1 + pick(4);
     for (int i = 0; i < materials; ++i) s_.material(material());
     const int shapes = 1 + pick(6);
@@ -119,6 +122,19 @@ private:
     use.texture = pick(static_cast<int>(scene().textures.size()));
   }
 
+  MediumDesc medium(int index) {
+    MediumDesc m = default_medium(pick(static_cast<int>(medium_type_field().choices.size())));
+    m.name = std::to_string(index);
+    m.phase = default_phase(pick(static_cast<int>(phase_type_field().choices.size())));
+    for (const Field<MediumDesc>& row : medium_fields(m))
+      if (row.key != "emission" || one_in(4)) randomise(row, row.address(m));
+    for (const Field<PhaseDesc>& row : phase_fields(m.phase)) randomise(row, row.address(m.phase));
+    return m;
+  }
+  std::string any_medium() {
+    return scene().media[static_cast<std::size_t>(pick(static_cast<int>(scene().media.size())))].name;
+  }
+
   Material material() {
     for (;;) {
       Material m = default_material(pick(kMaterialTypeCount));
@@ -129,6 +145,7 @@ private:
       }
       if (!one_in(4)) m.opacity = 1.0f;
       if (!one_in(3)) m.emission = vec3(0);
+      if (!scene().media.empty() && one_in(2)) m.medium = any_medium();
       if (material_problem(m, scene().textures.size()).empty()) return m;
     }
   }

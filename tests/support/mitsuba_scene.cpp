@@ -128,8 +128,7 @@ private:
       throw unknown("medium", node);
     MediumDesc desc;
     desc.name = node.attribute("id").value();
-    desc.sigma_t = color_of(child(node, "sigma_t"));
-    desc.albedo = color_of(child(node, "albedo"));
+    desc.model = HomogeneousMediumModel{color_of(child(node, "sigma_t")), color_of(child(node, "albedo"))};
     desc.scale = number(node, "scale", 1);
     document_.scene.media.push_back(desc);
   }

@@ -86,6 +86,24 @@ std::string lights_markdown() {
       [](const FieldInfo& row) { return markdown_cell(field_domain(row)); });
 }
 
+std::string media_markdown() {
+  std::vector<MediumDesc> defaults;
+  for (std::string_view type : medium_type_field().choices)
+    defaults.push_back(scene_with("media", type).media.front());
+  return typed_table(
+      medium_type_field(), defaults, [](const MediumDesc& medium) { return medium_fields(medium); },
+      [](const FieldInfo& row) { return markdown_cell(field_domain(row)); });
+}
+
+std::string phases_markdown() {
+  std::vector<PhaseDesc> defaults;
+  for (std::size_t type = 0; type < phase_type_field().choices.size(); ++type)
+    defaults.push_back(default_phase(static_cast<int>(type)));
+  return typed_table(
+      phase_type_field(), defaults, [](const PhaseDesc& phase) { return phase_fields(phase); },
+      [](const FieldInfo& row) { return markdown_cell(field_domain(row)); });
+}
+
 std::string shapes_markdown() {
   std::string out = "| shape | key | values | default | meaning |\n|---|---|---|---|---|\n";
   for (std::string_view name : shape_names()) {

@@ -19,13 +19,15 @@ void render_panel(Ui& ui, ViewerState& state);
 void objects_panel(Ui& ui, ViewerState& state);
 void materials_panel(Ui& ui, ViewerState& state);
 void textures_panel(Ui& ui, ViewerState& state);
+/// Media: their values, and what they fill.
+void media_panel(Ui& ui, ViewerState& state);
 void lights_panel(Ui& ui, ViewerState& state);
 void scenes_panel(Ui& ui, ViewerState& state);
 
 using DrawPanel = void (*)(Ui&, ViewerState&);
 inline constexpr DrawPanel kPanels[] = {
     statistics_panel, compare_panel, display_panel,   inspect_panel,  camera_panel, bookmarks_panel,
-    render_panel,     objects_panel, materials_panel, textures_panel, lights_panel, scenes_panel,
+    render_panel,     objects_panel, materials_panel, textures_panel, media_panel, lights_panel, scenes_panel,
 };
 
 } // namespace candela

@@ -1,6 +1,7 @@
 // The panels of materials and scenes.
 
 #include "app/panels/material_picker.h"
+#include "app/panels/medium_picker.h"
 #include "app/panels/panel_list.h"
 #include "app/panels/texture_picker.h"
 #include "app/ui/item_list.h"
@@ -83,6 +84,9 @@ void materials_panel(Ui& ui, ViewerState& state) {
     context.initial = initial_of(row, state.home.scene.materials, material, index);
     material_field(ui, state, index, row, context);
   }
+  if (!state.document.scene.media.empty())
+    state.edited |= medium_field(ui, state, "material.medium", "medium", material.medium,
+                                 "What fills bodies of this material, where light enters them");
   ImGui::PopID();
 }
 

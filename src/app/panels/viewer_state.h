@@ -86,6 +86,7 @@ struct ViewerState {
   std::string panorama_input;
   int selected_material = 0;
   int selected_texture = 0;
+  int selected_medium = 0;
   int selected_light = 0; ///< lights first, then emissive materials
 
   Selection selection;

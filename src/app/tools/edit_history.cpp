@@ -113,6 +113,12 @@ std::string edit_name(const EditState& before, const EditState& after) {
     return fmt::format("{}", fmt::join(changed_keys(light_fields(x), x, y), ", "));
   }));
   if (a.light_groups != b.light_groups) add("Light groups");
+  add(list_edit(a.media, b.media, "Medium", "media", [](const MediumDesc& x, const MediumDesc& y) {
+    if (medium_type(x) != medium_type(y)) return std::string("type");
+    if (x.phase != y.phase) return std::string("phase");
+    return fmt::format("{}", fmt::join(changed_keys(medium_fields(x), x, y), ", "));
+  }));
+  if (a.medium != b.medium) add("Medium of the scene");
   add(list_edit(a.bookmarks, b.bookmarks, "Bookmark", "bookmarks",
                 [](const Bookmark&, const Bookmark&) { return std::string(); }));
   std::set<std::string_view> poses = {"camera.position", "camera.target", "camera.up"};

@@ -42,13 +42,13 @@ Spectrum channel_probabilities(Spectrum throughput) {
 void MediumWay::start(vec3 direction) {
   direction_ = direction;
   stretches_.clear();
-  scatters_ = emits_ = false;
+  scatters_ = emits_ = lit_ = false;
   transmittance_ = unscattered_ = Spectrum(1);
 }
 
-void MediumWay::add(vec3 origin, float length, const MediumStack& bodies, const Medium* medium) {
+void MediumWay::add(vec3 origin, float length, const MediumStack& bodies, const Medium* medium, bool sealed) {
   const float begin = stretches_.empty() ? 0 : stretches_.back().end, end = begin + length;
-  stretches_.push_back({origin, begin, end, bodies, medium});
+  stretches_.push_back({origin, begin, end, bodies, medium, sealed});
   if (medium == nullptr) return;
   const Spectrum passes = glm::exp(-optical_depth(stretches_.back(), length));
   transmittance_ *= passes;
@@ -58,6 +58,7 @@ void MediumWay::add(vec3 origin, float length, const MediumStack& bodies, const 
   if (!scatters_) scattering_begin_ = begin;
   scattering_end_ = end;
   scatters_ = true;
+  lit_ |= !sealed;
 }
 
 Spectrum MediumWay::emitted() const {
@@ -103,6 +104,12 @@ std::optional<MediumPoint> MediumWay::at_depth(int channel, float depth) const {
 std::optional<MediumPoint> MediumWay::sample_collision(Spectrum channels, vec2 u) const {
   const int channel = choose_channel(channels, u.x);
   return at_depth(channel, -std::log1p(-u.y));
+}
+
+float MediumWay::collision_distance(const Medium& medium, Spectrum channels, vec2 u) {
+  const int channel = choose_channel(channels, u.x);
+  const float sigma = visit_variant([](const auto& m) { return m.sigma_t(); }, medium)[channel];
+  return sigma > 0 ? -std::log1p(-u.y) / sigma : kInfinity;
 }
 
 float MediumWay::collision_pdf(const MediumPoint& point, Spectrum channels) const {

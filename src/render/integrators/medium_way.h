@@ -16,6 +16,7 @@ struct MediumStretch {
   float begin, end;     ///< distances along the ray, scene units; the last one's end may be infinite
   MediumStack bodies;   ///< that it lies in
   const Medium* medium; ///< null: nothing is there
+  bool sealed;          ///< light samples do not reach it (sealed_media.h)
 };
 
 /// A place on the way.
@@ -38,10 +39,12 @@ class MediumWay {
 public:
   void start(vec3 direction);
   /// The next stretch.
-  void add(vec3 origin, float length, const MediumStack& bodies, const Medium* medium);
+  void add(vec3 origin, float length, const MediumStack& bodies, const Medium* medium, bool sealed = false);
 
   bool scatters() const { return scatters_; }
   bool emits() const { return emits_; }
+  /// Whether light samples may reach a medium that scatters.
+  bool is_lit() const { return lit_; }
   /// Of all of it.
   Spectrum transmittance() const { return transmittance_; }
   Spectrum unscattered() const { return unscattered_; }
@@ -60,6 +63,8 @@ public:
 
   /// u.x chooses the channel, u.y the distance. Nothing: it comes through.
   std::optional<MediumPoint> sample_collision(Spectrum channels, vec2 u) const;
+  /// The same on an endless way through one medium.
+  static float collision_distance(const Medium& medium, Spectrum channels, vec2 u);
   float collision_pdf(const MediumPoint& point, Spectrum channels) const;
   float pass_probability(Spectrum channels) const { return glm::dot(channels, unscattered_); }
 
@@ -77,7 +82,7 @@ private:
 
   vec3 direction_{0};
   std::vector<MediumStretch> stretches_;
-  bool scatters_ = false, emits_ = false;
+  bool scatters_ = false, emits_ = false, lit_ = false;
   Spectrum transmittance_{1}, unscattered_{1};
   float scattering_begin_ = 0, scattering_end_ = 0;
 };

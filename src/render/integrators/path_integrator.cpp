@@ -69,6 +69,7 @@ void PathTracer::intersect(int depth, StopPoll& stop) {
   escaped_.clear();
   counts_.closest += paths_.size();
   const bool coherent = depth == 1; // camera rays: faster together
+  const bool active = scene_.has_active_media();
   if (coherent) {
     rays_.clear();
     for (const Path& path : paths_) rays_.push_back(&path.ray);
@@ -78,6 +79,7 @@ void PathTracer::intersect(int depth, StopPoll& stop) {
     if (i % kRaysPerPoll == 0 && stop.asked()) return;
     Path& path = paths_[i];
     path.sampler.set_bounce(static_cast<std::uint32_t>(depth));
+    if (active && !coherent) path.ray.t_max = collision_distance(path, depth);
     Hit& hit = hits_[passes ? i : arrived_.size()]; // at i or before
     if (coherent) hit = hits_[i];
     const bool met = coherent ? hit.t < kInfinity : accel.intersect(path.ray, hit);

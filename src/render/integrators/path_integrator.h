@@ -116,6 +116,7 @@ private:
   bool pass_media(std::size_t path, bool met, Hit& hit);
   // Of scenes with active media, in path_media.cpp:
   RayEnd pass_active_media(std::size_t path, bool met, Hit& hit, int depth);
+  float collision_distance(const Path& path, int depth) const;
   float choose_light_vertex(Path& path, const Ray& ray, Spectrum channels, const MediumPoint* collision,
                             int depth);
   std::optional<EquiangularSampling> equiangular_about_light(const Path& path, const Ray& ray,

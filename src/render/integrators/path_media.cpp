@@ -32,7 +32,8 @@ bool scatters_at(const MediumPoint& point) {
 /// probability.
 PathTracer::RayEnd PathTracer::pass_active_media(std::size_t index, bool met, Hit& hit, int depth) {
   Path& path = paths_[index];
-  const Ray ray = path.ray; // before it is moved behind surfaces that it passes
+  path.ray.t_max = kInfinity; // of collision_distance()
+  const Ray ray = path.ray;   // before it is moved behind surfaces that it passes
   MediaPassage passage{media_[index], Spectrum(1), &way_};
   met = intersect_through_opacity(scene_, path.ray, path.sampler, met, hit, counts_, &passage,
                                   cone_of_view(path));
@@ -54,12 +55,24 @@ PathTracer::RayEnd PathTracer::pass_active_media(std::size_t index, bool met, Hi
       }
     }
     const float passes = way_.pass_probability(channels);
-    path.bsdf_pdf *= average(way_.unscattered()); // as DirectLight::passed() has it
+    // As DirectLight::passed() has it. No less than what is no number any more, for it may be infinite.
+    path.bsdf_pdf *= std::max(average(way_.unscattered()), std::numeric_limits<float>::min());
     if (depth < last_depth_) path.throughput *= passes > 0 ? 1 / passes : 0;
   }
   path.throughput *= way_.transmittance();
   media_[index] = passage.media;
   return end;
+}
+
+/// The distance beyond which a ray need not be traced, for it collides before: known of one that starts in a
+/// sealed medium, where nothing but the collision matters.
+float PathTracer::collision_distance(const Path& path, int depth) const {
+  const MediumId id = scene_.filling(media_[static_cast<std::size_t>(&path - paths_.data())]);
+  if (!id || depth >= last_depth_ || !scene_.is_sealed(id)) return kInfinity;
+  const Medium& medium = scene_.medium(id);
+  if (!medium_scatters(medium) || medium_emits(medium)) return kInfinity;
+  return MediumWay::collision_distance(medium, channel_probabilities(path.throughput),
+                                       path.sampler.get_2d(Dimension::medium_distance));
 }
 
 /// Equiangular sampling about a place on a light that matters at some collision; nothing where it is none, or
@@ -85,7 +98,7 @@ std::optional<EquiangularSampling> PathTracer::equiangular_about_light(const Pat
 /// of the path's own collision, if there is one.
 float PathTracer::choose_light_vertex(Path& path, const Ray& ray, Spectrum channels,
                                       const MediumPoint* collision, int depth) {
-  if (!shows_depth(settings_, depth + 1)) return kInfinity;
+  if (!way_.is_lit() || !shows_depth(settings_, depth + 1)) return kInfinity;
   std::optional<EquiangularSampling> equiangular;
   if (settings_.medium_sampling != MediumSampling::distance)
     equiangular = equiangular_about_light(path, ray, channels);

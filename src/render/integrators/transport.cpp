@@ -44,7 +44,8 @@ bool detail::intersect_through_media(const RenderScene& scene, Ray& ray, const S
       return;
     }
     const MediumId id = scene.filling(passage->media);
-    passage->way->add(begin, distance, passage->media, id ? &scene.medium(id) : nullptr);
+    passage->way->add(begin, distance, passage->media, id ? &scene.medium(id) : nullptr,
+                      id && scene.is_sealed(id));
   };
   if (!scene.has_passable_surfaces()) {
     advance(met ? hit.t : kInfinity);

@@ -35,6 +35,10 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
   scene->has_active_media_ = scene->materials_->has_scattering() || scene->materials_->has_medium_emission();
   scene->lights_ = SceneLights::of(document, scene->geometry_, scene->materials_,
                                    previous != nullptr ? previous->lights_ : nullptr, progress);
+  if (scene->has_active_media_) {
+    if (previous != nullptr) scene->hulls_ = previous->hulls_;
+    scene->sealed_ = sealed_media(scene->instances(), *scene->materials_, scene->lights(), scene->hulls_);
+  }
   scene->layer_count_ = scene->lights_->layers().count();
   return scene;
 }

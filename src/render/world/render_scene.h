@@ -1,7 +1,7 @@
 #pragma once
 // A Document made ready to render; const while it is.
 
-#include "render/world/scene_parts.h"
+#include "render/world/sealed_media.h"
 
 namespace candela {
 
@@ -43,6 +43,8 @@ public:
     const MediumId inside = bodies.current();
     return inside ? inside : materials_->world_medium();
   }
+  /// As sealed_media() has it; of scenes with active media.
+  bool is_sealed(MediumId id) const { return sealed_[id.index]; }
   const Medium& medium(MediumId id) const { return materials_->media()[id.index]; }
   /// Index of refraction over vacuum; 1 of no medium.
   float ior(MediumId id) const { return id ? materials_->media_iors()[id.index] : 1; }
@@ -78,6 +80,8 @@ private:
   std::shared_ptr<const std::vector<Instance>> instances_; ///< what geometry_ was built from
   std::shared_ptr<const SceneMaterials> materials_;
   std::shared_ptr<const SceneLights> lights_;
+  std::vector<bool> sealed_; ///< by the index of the medium
+  MeshHulls hulls_;
   // Of *materials_, where every ray reads them.
   const SurfaceMaterial* surfaces_ = nullptr;
   bool has_transparency_ = false, has_invisible_ = false, has_priorities_ = false, has_media_ = false,

@@ -38,6 +38,8 @@ TEST(Readme, HoldsTheGeneratedTables) {
   const GeneratedTable tables[] = {{"settings", "scenes/settings.md", settings_markdown()},
                                    {"materials", "scenes/README.md", materials_markdown()},
                                    {"lights", "scenes/README.md", lights_markdown()},
+                                   {"media", "scenes/README.md", media_markdown()},
+                                   {"phases", "scenes/README.md", phases_markdown()},
                                    {"shapes", "scenes/README.md", shapes_markdown()},
                                    {"motion", "scenes/README.md", motion_markdown()}};
   for (const auto& [name, file, table] : tables)
