@@ -26,8 +26,9 @@ void scenes_panel(Ui& ui, ViewerState& state);
 
 using DrawPanel = void (*)(Ui&, ViewerState&);
 inline constexpr DrawPanel kPanels[] = {
-    statistics_panel, compare_panel, display_panel,   inspect_panel,  camera_panel, bookmarks_panel,
-    render_panel,     objects_panel, materials_panel, textures_panel, media_panel, lights_panel, scenes_panel,
+    statistics_panel, compare_panel, display_panel, inspect_panel,   camera_panel,
+    bookmarks_panel,  render_panel,  objects_panel, materials_panel, textures_panel,
+    media_panel,      lights_panel,  scenes_panel,
 };
 
 } // namespace candela
