@@ -1,5 +1,6 @@
 // The same bits for any number of threads, passes, order, crops and replays.
 
+#include "render/media_testing.h"
 #include "render/strategy_scenes.h"
 
 namespace {
@@ -32,6 +33,10 @@ std::vector<Document> documents() {
     s.document.scene.camera.aperture_radius = 0.01f;
     all.push_back(s.document);
   }
+  Document fog = foggy_room(21, 1).document;
+  fog.settings.film.width = 37;
+  fog.settings.sampler.seed = sampler_seed(8);
+  all.push_back(fog);
   return all;
 }
 

@@ -5,34 +5,6 @@
 namespace candela::test {
 namespace {
 
-/// A floor and a wall in a great ball of coloured fog, with a ball of denser smoke, a lamp with an area, a
-/// directional light and a sky, a glossy ball and a ball of glass with milk in it. No point light: where
-/// places are not chosen for its sake it has no finite variance.
-SceneMaker foggy_room(int size, int spp) {
-  SceneMaker s(size, size, spp);
-  const std::string fog = add_medium(s, {0.15f, 0.3f, 0.6f}, {0.9f, 0.7f, 0.5f}, HenyeyGreensteinPhase{0.4f});
-  const std::string smoke = add_medium(s, {3, 2, 1}, {0.4f, 0.8f, 0.9f}, HenyeyGreensteinPhase{-0.4f});
-  const std::string milk = add_medium(s, {5, 7, 9}, vec3(0.95f));
-  s.sphere({0, 0, 0}, 3, boundary(s, fog));
-  const int wall = s.diffuse({0.7f, 0.6f, 0.4f});
-  s.rectangle({0, -1, 0}, {0, 0, 2}, {2, 0, 0}, wall);
-  s.rectangle({0, 0, -1.5f}, {2, 0, 0}, {0, 2, 0}, wall);
-  s.rectangle({0, 1.9f, 0}, {0.5f, 0, 0}, {0, 0, 0.5f}, s.diffuse(vec3(0), vec3(8, 6, 4)));
-  s.sphere({-0.8f, 0, 0}, 0.7f, boundary(s, smoke));
-  Material glass;
-  glass.model = DielectricMaterial{.ior = 1.3f};
-  glass.medium = milk;
-  s.sphere({0.9f, -0.3f, 0.2f}, 0.6f, s.material(glass));
-  Material gloss;
-  gloss.model = GgxMaterial{};
-  s.sphere({0.1f, -0.6f, 1}, 0.35f, s.material(gloss));
-  add_directional(s, {0.3f, -1, -0.5f}, {1, 0.9f, 0.7f});
-  s.constant_light({0.1f, 0.15f, 0.3f});
-  s.camera({0, 0.4f, 1.9f}, {0, 0.1f, 0}, 60);
-  s.document.settings.sampler.type = SamplerType::independent;
-  return s;
-}
-
 /// The sum over all pixels, and its variance.
 struct Sum {
   glm::dvec3 value{0}, variance{0};

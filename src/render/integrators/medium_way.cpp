@@ -9,14 +9,31 @@ namespace {
 
 /// Extinction coefficient as collisions are sampled by: 0 of what does not scatter.
 Spectrum sampled_sigma_t(const MediumStretch& stretch) {
-  if (stretch.medium == nullptr) return Spectrum(0);
-  return visit_variant([](const auto& m) { return m.scatters() ? m.sigma_t() : Spectrum(0); },
-                       *stretch.medium);
+  if (!stretch.scatters) return Spectrum(0);
+  return visit_variant([](const auto& m) { return m.sigma_t(); }, *stretch.medium);
 }
 
 Spectrum optical_depth(const MediumStretch& stretch, float length) {
   if (stretch.medium == nullptr) return Spectrum(0);
   return visit_variant([&](const auto& m) { return m.optical_depth(length); }, *stretch.medium);
+}
+
+/// exp(-depth); that of grey media is computed once.
+Spectrum passed(Spectrum depth) {
+  if (depth.x == depth.y && depth.x == depth.z) return Spectrum(std::exp(-depth.x));
+  return glm::exp(-depth);
+}
+
+/// 1 - exp(-depth), where exp(-depth) is known.
+float absorbed(float depth, float passes) {
+  constexpr float kThin = 0.05f; // a series beyond: digits would cancel
+  return depth < kThin ? depth * (1 - depth / 2 * (1 - depth / 3 * (1 - depth / 4))) : 1 - passes;
+}
+
+/// -log(1 - x) for x in [0, 1).
+float depth_of_absorbed(float x) {
+  constexpr float kThin = 0.02f;
+  return x < kThin ? x * (1 + x * (1.0f / 2 + x * (1.0f / 3 + x * (1.0f / 4)))) : -std::log(1 - x);
 }
 
 /// The channel that u chooses, and u stretched over its interval again.
@@ -44,57 +61,60 @@ void MediumWay::start(vec3 direction) {
   stretches_.clear();
   scatters_ = emits_ = lit_ = false;
   transmittance_ = unscattered_ = Spectrum(1);
+  depth_ = Spectrum(0);
 }
 
 void MediumWay::add(vec3 origin, float length, const MediumStack& bodies, const Medium* medium, bool sealed) {
   const float begin = stretches_.empty() ? 0 : stretches_.back().end, end = begin + length;
-  stretches_.push_back({origin, begin, end, bodies, medium, sealed});
+  const bool scatters = medium != nullptr && medium_scatters(*medium);
+  stretches_.push_back({origin, begin, end, bodies, medium, scatters, transmittance_, unscattered_});
   if (medium == nullptr) return;
-  const Spectrum passes = glm::exp(-optical_depth(stretches_.back(), length));
+  const Spectrum depth = optical_depth(stretches_.back(), length), passes = passed(depth);
   transmittance_ *= passes;
   emits_ |= medium_emits(*medium);
-  if (!medium_scatters(*medium)) return;
+  if (!scatters) return;
   unscattered_ *= passes;
-  if (!scatters_) scattering_begin_ = begin;
+  depth_ += depth;
+  if (!scatters_) {
+    scattering_begin_ = begin;
+    free_path_ = 1 / average(visit_variant([](const auto& m) { return m.sigma_t(); }, *medium));
+  }
   scattering_end_ = end;
   scatters_ = true;
   lit_ |= !sealed;
 }
 
 Spectrum MediumWay::emitted() const {
-  Spectrum light(0), passes(1);
+  Spectrum light(0);
   for (const MediumStretch& stretch : stretches_) {
     if (stretch.medium == nullptr) continue;
     const float length = stretch.end - stretch.begin;
-    light += passes * visit_variant([&](const auto& m) { return m.emitted(length); }, *stretch.medium);
-    passes *= glm::exp(-optical_depth(stretch, length));
+    light += stretch.transmittance *
+             visit_variant([&](const auto& m) { return m.emitted(length); }, *stretch.medium);
   }
   return light;
 }
 
+MediumPoint MediumWay::point_on(const MediumStretch& stretch, float distance) const {
+  const Spectrum passes = passed(optical_depth(stretch, distance - stretch.begin));
+  return {distance, &stretch, stretch.transmittance * passes,
+          stretch.scatters ? stretch.unscattered * passes : stretch.unscattered};
+}
+
 MediumPoint MediumWay::at(float distance) const {
-  MediumPoint point{distance, &stretches_.front(), Spectrum(1), Spectrum(1)};
-  for (const MediumStretch& stretch : stretches_) {
-    point.stretch = &stretch;
-    const float length = std::min(distance, stretch.end) - stretch.begin;
-    const Spectrum passes = glm::exp(-optical_depth(stretch, length));
-    point.transmittance *= passes;
-    if (stretch.medium != nullptr && medium_scatters(*stretch.medium)) point.unscattered *= passes;
-    if (distance < stretch.end) break;
-  }
-  return point;
+  const auto found =
+      std::ranges::find_if(stretches_, [&](const MediumStretch& stretch) { return distance < stretch.end; });
+  const MediumStretch& stretch = found != stretches_.end() ? *found : stretches_.back();
+  return point_on(stretch, std::min(distance, stretch.end));
 }
 
 std::optional<MediumPoint> MediumWay::at_depth(int channel, float depth) const {
   for (const MediumStretch& stretch : stretches_) {
+    if (!stretch.scatters) continue;
     const float sigma = sampled_sigma_t(stretch)[channel];
     if (!(sigma > 0)) continue;
     const float length = depth / sigma;
-    if (length < stretch.end - stretch.begin) {
-      MediumPoint point = at(stretch.begin + length);
-      point.stretch = &stretch; // also where the sum is rounded to its end
-      return point;
-    }
+    if (length < stretch.end - stretch.begin) return point_on(stretch, stretch.begin + length);
     depth -= sigma * (stretch.end - stretch.begin);
     if (!(depth >= 0)) return std::nullopt;
   }
@@ -103,13 +123,13 @@ std::optional<MediumPoint> MediumWay::at_depth(int channel, float depth) const {
 
 std::optional<MediumPoint> MediumWay::sample_collision(Spectrum channels, vec2 u) const {
   const int channel = choose_channel(channels, u.x);
-  return at_depth(channel, -std::log1p(-u.y));
+  return at_depth(channel, depth_of_absorbed(u.y));
 }
 
 float MediumWay::collision_distance(const Medium& medium, Spectrum channels, vec2 u) {
   const int channel = choose_channel(channels, u.x);
   const float sigma = visit_variant([](const auto& m) { return m.sigma_t(); }, medium)[channel];
-  return sigma > 0 ? -std::log1p(-u.y) / sigma : kInfinity;
+  return sigma > 0 ? depth_of_absorbed(u.y) / sigma : kInfinity;
 }
 
 float MediumWay::collision_pdf(const MediumPoint& point, Spectrum channels) const {
@@ -118,23 +138,15 @@ float MediumWay::collision_pdf(const MediumPoint& point, Spectrum channels) cons
 
 std::optional<MediumPoint> MediumWay::sample_forced_collision(Spectrum channels, vec2 u) const {
   const int channel = choose_channel(channels, u.x);
-  float depth = 0; // 1 - exp(-depth) is better known by the depth itself where it is small
-  for (const MediumStretch& stretch : stretches_)
-    if (stretch.medium != nullptr && medium_scatters(*stretch.medium))
-      depth += optical_depth(stretch, stretch.end - stretch.begin)[channel];
-  if (!(depth > 0)) return std::nullopt;
-  return at_depth(channel, -std::log1p(u.y * std::expm1(-depth)));
+  if (!(depth_[channel] > 0)) return std::nullopt;
+  return at_depth(channel, depth_of_absorbed(u.y * absorbed(depth_[channel], unscattered_[channel])));
 }
 
 float MediumWay::forced_collision_pdf(const MediumPoint& point, Spectrum channels) const {
-  Spectrum depth(0);
-  for (const MediumStretch& stretch : stretches_)
-    if (stretch.medium != nullptr && medium_scatters(*stretch.medium))
-      depth += optical_depth(stretch, stretch.end - stretch.begin);
   const Spectrum density = channels * sampled_sigma_t(*point.stretch) * point.unscattered;
   float pdf = 0;
   for (int c = 0; c < 3; ++c)
-    if (depth[c] > 0) pdf += density[c] / -std::expm1(-depth[c]);
+    if (depth_[c] > 0) pdf += density[c] / absorbed(depth_[c], unscattered_[c]);
   return pdf;
 }
 
@@ -144,8 +156,8 @@ EquiangularSampling::EquiangularSampling(vec3 origin, vec3 direction, vec3 point
   // On the ray itself the density would have a pole.
   constexpr float kLeast = 1e-4f;
   height_ = std::max(height_, kLeast * std::abs(nearest_) + std::numeric_limits<float>::min());
-  angle_begin_ = std::atan2(begin - nearest_, height_);
-  angle_end_ = std::min(std::atan2(end - nearest_, height_), kSteepest);
+  angle_begin_ = std::atan((begin - nearest_) / height_);
+  angle_end_ = std::min(std::atan((end - nearest_) / height_), kSteepest);
 }
 
 float EquiangularSampling::sample(float u) const {

@@ -12,11 +12,13 @@ namespace candela {
 
 /// A stretch of the ray that lies in one medium, or in none.
 struct MediumStretch {
-  vec3 origin;          ///< where it begins
-  float begin, end;     ///< distances along the ray, scene units; the last one's end may be infinite
-  MediumStack bodies;   ///< that it lies in
-  const Medium* medium; ///< null: nothing is there
-  bool sealed;          ///< light samples do not reach it (sealed_media.h)
+  vec3 origin;            ///< where it begins
+  float begin, end;       ///< distances along the ray, scene units; the last one's end may be infinite
+  MediumStack bodies;     ///< that it lies in
+  const Medium* medium;   ///< null: nothing is there
+  bool scatters;          ///< the medium, somewhere
+  Spectrum transmittance; ///< of the way to its beginning
+  Spectrum unscattered;   ///< as MediumPoint has it, likewise
 };
 
 /// A place on the way.
@@ -73,18 +75,22 @@ public:
   std::optional<MediumPoint> sample_forced_collision(Spectrum channels, vec2 u) const;
   float forced_collision_pdf(const MediumPoint& point, Spectrum channels) const;
 
+  /// About how far light goes in the first medium that scatters, scene units.
+  float typical_free_path() const { return free_path_; }
   /// From where to where media scatter; what lies between may not.
   float scattering_begin() const { return scattering_begin_; }
   float scattering_end() const { return scattering_end_; }
 
 private:
   std::optional<MediumPoint> at_depth(int channel, float optical_depth) const;
+  MediumPoint point_on(const MediumStretch& stretch, float distance) const;
 
   vec3 direction_{0};
   std::vector<MediumStretch> stretches_;
   bool scatters_ = false, emits_ = false, lit_ = false;
   Spectrum transmittance_{1}, unscattered_{1};
-  float scattering_begin_ = 0, scattering_end_ = 0;
+  Spectrum depth_{0}; ///< optical, of media that scatter
+  float scattering_begin_ = 0, scattering_end_ = 0, free_path_ = 0;
 };
 
 /// Distances along a ray whose density is in proportion to 1 / (squared distance to a point): Kulla & Fajardo

@@ -119,8 +119,7 @@ private:
   float collision_distance(const Path& path, int depth) const;
   float choose_light_vertex(Path& path, const Ray& ray, Spectrum channels, const MediumPoint* collision,
                             int depth);
-  std::optional<EquiangularSampling> equiangular_about_light(const Path& path, const Ray& ray,
-                                                             Spectrum channels) const;
+  std::optional<EquiangularSampling> equiangular_about_light(const Path& path, const Ray& ray) const;
   void add_medium_emission(const Path& path, Spectrum emission, int depth);
   void sample_lights_in_media(int depth, StopPoll& stop);
   void scatter_in_media(int depth, StopPoll& stop);

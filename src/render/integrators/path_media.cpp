@@ -15,14 +15,29 @@ namespace candela {
 
 namespace {
 
+/// A place on a light, for equiangular sampling: the middle of what is round, else any.
+std::optional<vec3> light_pivot(const Light& light, const LightSamplingContext& context, float u,
+                                const Sampler& sampler) {
+  return visit_variant(
+      [&](const auto& l) -> std::optional<vec3> {
+        if constexpr (requires { l.center; }) {
+          return l.center;
+        } else if constexpr (requires { l.position; }) {
+          return l.position;
+        } else {
+          const auto sample = l.sample(context, {u, sampler.get_1d(Dimension::medium_pivot, 1)});
+          if (!sample || sample->infinite) return std::nullopt;
+          return sample->point;
+        }
+      },
+      light);
+}
+
 const PhaseFunction& phase_of(const MediumPoint& point) {
   return visit_variant([](const auto& m) -> const PhaseFunction& { return m.phase; }, *point.stretch->medium);
 }
 Spectrum sigma_s_of(const MediumPoint& point) {
   return visit_variant([](const auto& m) { return m.sigma_s; }, *point.stretch->medium);
-}
-bool scatters_at(const MediumPoint& point) {
-  return point.stretch->medium != nullptr && medium_scatters(*point.stretch->medium);
 }
 
 } // namespace
@@ -75,23 +90,26 @@ float PathTracer::collision_distance(const Path& path, int depth) const {
                                        path.sampler.get_2d(Dimension::medium_distance));
 }
 
-/// Equiangular sampling about a place on a light that matters at some collision; nothing where it is none, or
-/// infinitely far.
-std::optional<EquiangularSampling> PathTracer::equiangular_about_light(const Path& path, const Ray& ray,
-                                                                       Spectrum channels) const {
+/// Equiangular sampling about a place on a light that matters somewhere in the beginning of the media;
+/// nothing where it is none, or infinitely far.
+std::optional<EquiangularSampling> PathTracer::equiangular_about_light(const Path& path,
+                                                                       const Ray& ray) const {
   const LightSelection& selection =
       settings_.light_sampling != LightSampling::bsdf ? scene_.all_lights() : scene_.delta_lights();
-  const vec2 u = path.sampler.get_2d(Dimension::medium_pivot, 0);
-  const auto somewhere = way_.sample_forced_collision(channels, {u.x, 0.5f});
-  if (!somewhere || selection.empty()) return std::nullopt;
-  const LightSamplingContext context = LightSamplingContext::in_volume(way_.position(*somewhere));
+  if (selection.empty()) return std::nullopt;
+  const vec2 u = path.sampler.get_2d(Dimension::medium_pivot);
+  const float begin = way_.scattering_begin(), end = way_.scattering_end();
+  const float somewhere = begin + u.x * std::min(end - begin, way_.typical_free_path());
+  const LightSamplingContext context =
+      LightSamplingContext::in_volume(ray.origin + somewhere * ray.direction);
   const auto choice = selection.choose(context, u.y);
   if (!choice) return std::nullopt;
-  const auto sample =
-      sample_light(scene_.lights()[choice->light], context, path.sampler.get_2d(Dimension::medium_pivot, 1));
-  if (!sample || sample->infinite) return std::nullopt;
-  return EquiangularSampling(ray.origin, ray.direction, sample->point, way_.scattering_begin(),
-                             way_.scattering_end());
+  const Light& light = scene_.lights()[choice->light];
+  if (light_kind(light) == LightKind::infinite || light_kind(light) == LightKind::delta_direction)
+    return std::nullopt;
+  const auto pivot = light_pivot(light, context, choice->u, path.sampler);
+  if (!pivot) return std::nullopt;
+  return EquiangularSampling(ray.origin, ray.direction, *pivot, begin, end);
 }
 
 /// Chooses a point on the ray that lights are sampled for, light_vertices_. Returns MediumVertex::pdf_ratio
@@ -100,8 +118,7 @@ float PathTracer::choose_light_vertex(Path& path, const Ray& ray, Spectrum chann
                                       const MediumPoint* collision, int depth) {
   if (!way_.is_lit() || !shows_depth(settings_, depth + 1)) return kInfinity;
   std::optional<EquiangularSampling> equiangular;
-  if (settings_.medium_sampling != MediumSampling::distance)
-    equiangular = equiangular_about_light(path, ray, channels);
+  if (settings_.medium_sampling != MediumSampling::distance) equiangular = equiangular_about_light(path, ray);
   const float share = !equiangular ? 0 : settings_.medium_sampling == MediumSampling::equiangular ? 1 : 0.5f;
   auto density = [&](const MediumPoint& point) {
     float pdf = 0;
@@ -119,7 +136,7 @@ float PathTracer::choose_light_vertex(Path& path, const Ray& ray, Spectrum chann
     u.x = (u.x - share) / (1 - share);
     point = way_.sample_forced_collision(channels, u);
   }
-  if (point && scatters_at(*point)) {
+  if (point && point->stretch->scatters) {
     const float pdf = density(*point);
     const Spectrum throughput = path.throughput * sigma_s_of(*point) * point->transmittance / pdf;
     if (!is_black(throughput))

@@ -75,7 +75,25 @@ std::optional<json> hair_json(const Material& m) {
               {"emission", to_json(vec3(0))}};
 }
 
-json material_json(const Material& m) {
+/// A surface that is not there around a medium.
+std::optional<json> volume_json(const Material& m, const SceneDesc& scene) {
+  if (!is_null(m)) return std::nullopt;
+  const auto desc = std::ranges::find(scene.media, m.medium, &MediumDesc::name);
+  if (desc == scene.media.end()) throw unknown("material", "null without a medium");
+  const auto medium = std::get<HomogeneousMedium>(make_medium(*desc));
+  const auto* phase = std::get_if<HenyeyGreenstein>(&medium.phase);
+  if (phase == nullptr || medium.sigma_a != vec3(medium.sigma_a.x) ||
+      medium.sigma_s != vec3(medium.sigma_s.x) || medium.emits())
+    throw unknown("medium", "anything but a grey one of Henyey and Greenstein");
+  return json{{"type", "volume"},
+              {"sigma_a", medium.sigma_a.x},
+              {"sigma_s", medium.sigma_s.x},
+              {"g", phase->g},
+              {"emission", to_json(vec3(0))}};
+}
+
+json material_json(const Material& m, const SceneDesc& scene) {
+  if (auto volume = volume_json(m, scene)) return *volume;
   if (is_textured(m) || m.opacity.value < 1) throw unknown("material", "its texture or opacity");
   if (auto glass = glass_json(m)) return *glass;
   if (auto principled = principled_json(m)) return *principled;
@@ -156,6 +174,7 @@ std::optional<std::string> find_blender() {
 void write_cycles_scene(const Document& document, const std::string& folder) {
   const SceneDesc& scene = document.scene;
   const Camera& camera = scene.camera;
+  if (!scene.medium.empty()) throw unknown("medium", "it fills the scene");
   if (camera.projection != Projection::perspective || camera.aperture_radius > 0)
     throw unknown("camera", "it is no pinhole");
   json out;
@@ -165,7 +184,7 @@ void write_cycles_scene(const Document& document, const std::string& folder) {
                    {"target", to_json(camera.target)},
                    {"up", to_json(camera.up)},
                    {"vertical_fov", camera.vertical_fov}};
-  for (const Material& m : scene.materials) out["materials"].push_back(material_json(m));
+  for (const Material& m : scene.materials) out["materials"].push_back(material_json(m, scene));
   out["meshes"] = out["curves"] = out["rectangle_lamps"] = out["ball_lamps"] = json::array();
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];

@@ -41,6 +41,16 @@ def make_material(m):
     material.use_nodes = True
     nodes, links = nodes_of(material.node_tree)
     output = nodes.new("ShaderNodeOutputMaterial")
+    if m["type"] == "volume":
+        scatters, absorbs, total = (nodes.new("ShaderNode" + name) for name in ("VolumeScatter", "VolumeAbsorption", "AddShader"))
+        scatters.inputs["Color"].default_value, absorbs.inputs["Color"].default_value = (1, 1, 1, 1), (0, 0, 0, 1)
+        scatters.inputs["Density"].default_value, absorbs.inputs["Density"].default_value = m["sigma_s"], m["sigma_a"]
+        scatters.inputs["Anisotropy"].default_value = m["g"]
+        links.new(scatters.outputs[0], total.inputs[0])
+        links.new(absorbs.outputs[0], total.inputs[1])
+        links.new(total.outputs[0], output.inputs["Volume"])
+        material.cycles.homogeneous_volume = True
+        return material
     if m["type"] == "ggx":
         shader = nodes.new("ShaderNodeBsdfGlossy")
         shader.distribution = "GGX"

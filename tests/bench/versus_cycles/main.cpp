@@ -1,7 +1,7 @@
 // The same scenes in Candela and in Blender's Cycles on the CPU: speed and noise of both, and whether they
 // have the same expectation.
 //
-//   versus_cycles_bench [--short] [--scene cornell|ball|plates|glass|principled|hair] [--size N] [--spp N]
+//   versus_cycles_bench [--short] [--scene NAME] [--size N] [--spp N]
 //   [--seeds N]
 //                       [--threads N] [--keep FOLDER] [--cycles NAME=VALUE] [KEY=VALUE ...]
 //
@@ -187,10 +187,11 @@ int run(const Options& o) {
   run_scene("plates", [&] { return veach_plates(o.size); });
   run_scene("glass", [&] { return rough_glass(o.size); });
   run_scene("principled", [&] { return principled_balls(o.size); });
+  run_scene("fog", [&] { return foggy_spot(o.size); });
   run_scene("hair", [&] { return furry_ball(o.size, o.short_run ? 500 : 10000); });
   if (!any)
     throw usage_error("--scene " + o.scene, "there is no such scene",
-                      "cornell, ball, plates, glass, principled or hair");
+                      "cornell, ball, plates, glass, principled, fog or hair");
   return agree ? 0 : 1;
 }
 

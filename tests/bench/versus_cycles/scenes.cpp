@@ -176,6 +176,41 @@ VersusScene principled_balls(int size) {
   return {"Principled", "metal and plastic in the Cornell box", std::move(s.document), 64};
 }
 
+VersusScene foggy_spot(int size) {
+  test::SceneMaker s(size, size, 1);
+  const int wall = s.diffuse(vec3(0.5f)), black = s.diffuse(vec3(0));
+  s.rectangle({0, -1, 0}, {0, 0, 1}, {1, 0, 0}, wall);
+  s.rectangle({0, 0, -1}, {1, 0, 0}, {0, 1, 0}, s.diffuse({0.6f, 0.3f, 0.2f}));
+  // The shade: a cone from above the lamp down to its rim.
+  Mesh shade;
+  constexpr std::uint32_t kSides = 32;
+  shade.positions.emplace_back(0, 0.8f, 0);
+  for (std::uint32_t i = 0; i < kSides; ++i) {
+    const float phi = 2 * kPi * static_cast<float>(i) / kSides;
+    shade.positions.emplace_back(0.14f * std::cos(phi), 0.5f, 0.14f * std::sin(phi));
+    shade.triangles.emplace_back(0, i + 1, (i + 1) % kSides + 1);
+  }
+  s.mesh(std::move(shade), black);
+  s.sphere({0, 0.7f, 0}, 0.02f, s.diffuse(vec3(0), vec3(1200)));
+  MediumDesc fog;
+  fog.name = "fog";
+  fog.model = HomogeneousMediumModel{vec3(0.5f), vec3(0.9f)};
+  fog.phase.model = HenyeyGreensteinPhase{0.4f};
+  s.document.scene.media.push_back(fog);
+  Material air;
+  air.model = NullMaterial{};
+  air.medium = fog.name;
+  Mesh box;
+  for (int corner = 0; corner < 8; ++corner)
+    box.positions.push_back(
+        0.999f * vec3((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1));
+  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  s.mesh(std::move(box), s.material(air));
+  s.camera({0.6f, 0.2f, 4}, {0, -0.1f, 0}, 38);
+  return {"Fog", "a cone of light in a box of fog", std::move(s.document), 64, 0.02, 0.15};
+}
+
 VersusScene furry_ball(int size, int strands) {
   test::SceneMaker s(size, size, 1);
   constexpr std::uint32_t kPoints = 8; // 5 segments

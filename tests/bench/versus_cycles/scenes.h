@@ -51,6 +51,12 @@ VersusScene rough_glass(int size);
 /// 1.5, we by Schlick's for metals.
 VersusScene principled_balls(int size);
 
+/// A box of fog (albedo 0.9, Henyey-Greenstein g = 0.4, optical depth about 1 across) around a small lamp in
+/// a shade, which throws a cone of light.
+///
+/// As a disc that faces the point, Cycles' point lamp is darker near by, see veach_plates().
+VersusScene foggy_spot(int size);
+
 /// A ball with `strands` strands of brown hair (Chiang et al. 2016 in both) under the panorama with a sun.
 ///
 /// Cycles has curves of Catmull and Rom through points of our B-splines. Where light scatters often it is up
