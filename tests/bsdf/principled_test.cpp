@@ -52,6 +52,7 @@ std::vector<TestedBsdf> principled_models() {
        .flatness = 1,
        .clearcoat = 1});
   add({.base_color = Spectrum(1), .roughness = 1, .spec_trans = 1, .eta = 3, .spec_tint = 1, .thin = true});
+  add({.base_color = Spectrum(0), .roughness = 1, .eta = 1, .clearcoat = 1}); // the coat alone
   return all;
 }
 

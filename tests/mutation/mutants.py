@@ -33,7 +33,7 @@ TESTS = {
     "media/henyey_greenstein_phase.h": ["media/phase_function_test.cpp"],
     "media/draine_phase.h": ["media/phase_function_test.cpp"],
     "media/draine_phase.cpp": ["media/phase_function_test.cpp"],
-    "media/homogeneous_medium.h": ["media/medium_test.cpp", "render/media_closed_form_test.cpp"],
+    "media/homogeneous_medium.h": ["render/media_closed_form_test.cpp"],
     "render/integrators/medium_way.cpp": ["render/integrators/medium_way_test.cpp"],
     "render/integrators/path_media.cpp": ["render/media_closed_form_test.cpp", "render/media_strategies_test.cpp"],
     "render/integrators/direct_light.cpp": ["render/integrators/absorption_test.cpp"],

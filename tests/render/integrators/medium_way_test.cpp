@@ -108,6 +108,25 @@ TEST(MediumWay, AForcedCollisionIsFoundInTheThinnestMedium) {
   EXPECT_NEAR(way.forced_collision_pdf(*point, Spectrum(1.0f / 3)), 0.5f, 1e-5f);
 }
 
+TEST(MediumWay, ForcedCollisionsLieWhereTheFormulaHasThem) {
+  for (const float depth : {1e-6f, 1e-3f, 0.015f, 0.04f, 0.3f, 20.0f}) {
+    const Medium medium = scattering(Spectrum(depth));
+    MediumWay way;
+    way.start({1, 0, 0});
+    way.add({0, 0, 0}, 1, {}, &medium);
+    const Spectrum channels(1.0f / 3);
+    for (const float u : {0.01f, 0.3f, 0.7f, 0.99f}) {
+      const auto point = way.sample_forced_collision(channels, {0.5f, u});
+      ASSERT_TRUE(point);
+      const double d = static_cast<double>(depth), absorbed = -std::expm1(-d);
+      const double exact = -std::log1p(-static_cast<double>(u) * absorbed) / d;
+      EXPECT_NEAR(static_cast<double>(point->distance), exact, 1e-5 * exact) << depth << ", " << u;
+      const double density = d * std::exp(-d * static_cast<double>(point->distance)) / absorbed;
+      EXPECT_NEAR(static_cast<double>(way.forced_collision_pdf(*point, channels)), density, 1e-5 * density);
+    }
+  }
+}
+
 TEST(MediumWayStatistical, EquiangularDistancesFollowTheirDensity) {
   const EquiangularSampling near({0, 0, 0}, {0, 0, 1}, {0.3f, 0, 2}, 1.5f, 5);
   expect_distances(
