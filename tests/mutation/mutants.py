@@ -36,7 +36,6 @@ TESTS = {
     "media/homogeneous_medium.h": ["render/media_closed_form_test.cpp"],
     "render/integrators/medium_way.cpp": ["render/integrators/medium_way_test.cpp"],
     "render/integrators/path_media.cpp": ["render/media_closed_form_test.cpp", "render/media_strategies_test.cpp"],
-    "render/integrators/direct_light.cpp": ["render/integrators/absorption_test.cpp"],
     "materials/direction_sampling.h": ["materials/direction_sampling_test.cpp"],
     "materials/normal_map.h": ["materials/normal_map_test.cpp"],
     "lights/area_light.h": ["render/lights/light_test.cpp"],
@@ -69,10 +68,16 @@ TESTS = {
     "textures/worley_texture.h": ["textures/worley_texture_test.cpp"],
     "core/moving_transform.cpp": ["core/moving_transform_test.cpp"],
     "accel/primitives/moving_triangles.h": ["accel/motion_test.cpp"],
-    "render/integrators/direct_light.cpp": ["render/motion_blur_test.cpp"],
+    "render/integrators/direct_light.cpp": ["render/motion_blur_test.cpp", "render/integrators/absorption_test.cpp"],
     "render/world/moving_instance_surfaces.cpp": ["render/motion_frozen_test.cpp"],
     "render/world/moving_triangle_surfaces.cpp": ["render/motion_frozen_test.cpp"],
     "render/camera/camera_motion.cpp": ["render/motion_frozen_test.cpp"],
+}
+
+# Of headers that libraries are compiled with: their sources (of src/) that the tests need with the bug.
+USERS = {
+    "render/camera/lens_surface.h": ["render/camera/lens_system.cpp"],
+    "media/homogeneous_medium.h": ["render/integrators/medium_way.cpp"],
 }
 
 MUTANTS = [

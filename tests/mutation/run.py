@@ -21,7 +21,7 @@ import sys
 import tempfile
 import time
 
-from mutants import MUTANTS, TESTS
+from mutants import MUTANTS, TESTS, USERS
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 REQUIRED = 0.95
@@ -73,6 +73,8 @@ class Programs:
             read = os.path.join(overlay, "unity.cxx")
             with open(unity, encoding="utf-8") as whole, open(read, "w", encoding="utf-8") as changed:
                 changed.write(whole.read().replace(f'"{source["stands"]}"', f'"{source["read"]}"'))
+        elif unity and source.get("whole"):
+            read = unity
         words = words[:words.index("-c")]
         for option in ("-MT", "-MF", "-o"):
             at = words.index(option)
@@ -93,11 +95,14 @@ class Programs:
 
 
 def sources_of(file, overlay):
-    """What is compiled anew: the tests, what they share, and the file itself if it is no header."""
+    """What is compiled anew: the tests, what they share, and the file itself if it is no header, else its users."""
     tests = [os.path.join(ROOT, "tests", name) for name in TESTS[file]]
     support = {os.path.join(ROOT, "tests", "support", "bsdf_contract.cpp")
                for name in tests if "bsdf_contract.h" in open(name, encoding="utf-8").read()}
     sources = [{"stands": name, "read": name} for name in tests + sorted(support)]
+    for user in USERS.get(file, []):
+        path = os.path.join(ROOT, "src", user)
+        sources.append({"stands": path, "read": path, "whole": True})
     if file.endswith(".cpp"):
         sources.append({"stands": os.path.join(ROOT, "src", file), "read": os.path.join(overlay, file)})
     return sources
@@ -125,7 +130,7 @@ def run_with(programs, file, text):
         if made.returncode != 0:
             raise Failure(f"{file}: does not link: {made.stderr[-2000:]}")
         try:
-            ran = subprocess.run([program, "--gtest_brief=1"], cwd=programs.build, capture_output=True,
+            ran = subprocess.run([program, "--gtest_brief=1", "--gtest_filter=-*Heavy*"], cwd=programs.build, capture_output=True,
                                  text=True, timeout=TIME_LIMIT)
         except subprocess.TimeoutExpired:
             return False, f"no end within {TIME_LIMIT} s"
