@@ -157,9 +157,9 @@ void VertexLanes::set_in_medium(std::size_t i, vec3 point, vec3 direction, float
                                 const PhaseFunction& phase) {
   // No surface: it bounds nothing, and its BSDF is that of the lane.
   static const SurfaceMaterial nowhere = [] {
-    SurfaceMaterial material;
-    material.varies = true;
-    return material;
+    SurfaceMaterial none;
+    none.varies = true;
+    return none;
   }();
   position.set(i, point);
   position_error.set(i, vec3(0));
