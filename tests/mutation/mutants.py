@@ -208,6 +208,7 @@ MUTANTS = [
     ("render/integrators/medium_way.cpp", "x * (1 + x * (1.0f / 2 +", "x * (1 + x * (1.0f / 3 +", "a term of the series"),
     ("render/integrators/path_media.cpp", "path.throughput *= passes > 0 ? 1 / passes : 0;", "path.throughput *= passes > 0 ? 1 : 0;", "weight without the probability to pass"),
     ("render/integrators/path_media.cpp", "static_cast<float>(branches_at(*v.path, false)) * v.pdf_ratio;", "static_cast<float>(branches_at(*v.path, false));", "MIS of distances on one side alone"),
+    ("render/integrators/path_media.cpp", "return about.is_usable() ? std::optional(about) : std::nullopt;", "return about;", "angles of a far lamp"),
     ("render/integrators/path_media.cpp", "path.bsdf_pdf *= std::max(", "path.bsdf_pdf *= 0 * std::max(", "MIS without what is between"),
     ("render/integrators/direct_light.cpp", "if (directions_.cosine[i] < 0) shadow.media.cross(", "if (directions_.cosine[i] > 0) shadow.media.cross(", "media of the wrong side"),
     # Film and paths

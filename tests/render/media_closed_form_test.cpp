@@ -11,7 +11,7 @@ const vec3 kGrey(1);
 void look_down(SceneMaker& s, float from = 3) { s.camera({0, 0, from}, {0, 0, 0}, 1e-3f); }
 
 /// Beer and Lambert: whatever a medium does with the light that it takes, what comes straight through is the
-/// same, and where no path goes on it is known without any variance.
+/// same, and where paths end there it is known without any variance.
 TEST(MediaRender, TransmittanceHasNoVariance) {
   for (const vec3 albedo : {vec3(0), vec3(0.9f, 0.5f, 0), vec3(1)}) {
     SceneMaker s(8, 2, 16);
@@ -88,6 +88,26 @@ TEST(MediaClosedFormRender, SingleScatteringBackIsChandrasekhars) {
 }
 TEST(MediaClosedFormRender, SingleScatteringForwardIsChandrasekhars) {
   expect_single_scattering({0, 0, 1}, 0.026347, 20);
+}
+
+/// The same with a lamp so far away that from there all of the slab seems to be one point.
+TEST(MediaClosedFormRender, ADistantLampIsAsASun) {
+  for (const MediumSampling how : {MediumSampling::mis, MediumSampling::equiangular}) {
+    SceneMaker s(64, 64, 64);
+    add_slab(s, 1, boundary(s, add_medium(s, kGrey, vec3(0.9f))));
+    constexpr float kFar = 1e8f;
+    LightDesc lamp;
+    lamp.model = PointLightModel{.position = {0.1f * kFar, 0, kFar}};
+    lamp.color = vec3(1.01f * kFar * kFar); // irradiance 1
+    s.document.scene.lights.push_back(lamp);
+    look_down(s);
+    s.document.settings.path.max_depth = 2;
+    s.document.settings.path.medium_sampling = how;
+    s.document.settings.sampler.seed = sampler_seed(28 + static_cast<std::uint64_t>(how));
+    const double mu0 = 1 / std::sqrt(1.01);
+    const double exact = 0.9 / (4 * std::numbers::pi) * mu0 / (mu0 + 1) * (1 - std::exp(-(1 / mu0 + 1)));
+    expect_radiance(over_pixels(render(s.document), 1), exact, 5e-4, 2);
+  }
 }
 
 /// A point light in fog that fills everything, seen along a ray that passes it at the distance h: with an

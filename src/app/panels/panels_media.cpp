@@ -125,8 +125,16 @@ void media_panel(Ui& ui, ViewerState& state) {
                 static_cast<int>(i) == state.selected_medium))
       state.selected_medium = static_cast<int>(i);
   });
-  MediumDesc& medium = scene.media[static_cast<std::size_t>(state.selected_medium)];
+  const auto selected = static_cast<std::size_t>(state.selected_medium);
+  MediumDesc& medium = scene.media[selected];
   ImGui::PushID(state.selected_medium);
+  std::string name = medium.name;
+  if (ui.text("medium.name", "Name; Enter renames it everywhere", name, -1) && name != medium.name) {
+    if (rename_medium(scene, selected, name))
+      state.edited = true;
+    else
+      state.notice = "Another medium has this name";
+  }
   MediumDesc* home = home_of(state, medium, false);
   typed_fields(ui, state, "medium", "type", medium_type_field(), medium, home,
                [](const MediumDesc& m) { return medium_fields(m); });

@@ -100,10 +100,14 @@ public:
   /// Between two distances of a ray of unit direction; `end` may be infinite.
   EquiangularSampling(vec3 origin, vec3 direction, vec3 point, float begin, float end);
 
+  /// Whether the stretch takes up enough of the view from the point for its angles to be told apart as
+  /// floats. From farther away all of it is equally near, anyway.
+  bool is_usable() const { return angle_end_ - angle_begin_ > kLeastAngle; }
   float sample(float u) const;
   float pdf(float distance) const; ///< 1/scene unit
 
 private:
+  static constexpr float kLeastAngle = 1e-3f;    ///< radians
   static constexpr float kSteepest = 1.5707960f; ///< below a right angle, whose tangent changes its sign
 
   float begin_, end_;

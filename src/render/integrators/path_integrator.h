@@ -82,13 +82,15 @@ private:
     Path* path;
     vec3 position;
     const PhaseFunction* phase;
-    /// Of sampling lights: of the path to it, sigma_s and its density included. Of a collision: unused.
-    Spectrum throughput;
-    MediumStack bodies;
     /// p / q, with the density p of such a distance for collisions and q for light sampling; both strategies
     /// find light by the distance and the direction, so the density of the direction is scaled by this for
     /// MIS. Infinite where lights are not sampled.
     float pdf_ratio;
+  };
+  /// One that lights are sampled for.
+  struct MediumLightVertex : MediumVertex {
+    Spectrum throughput; ///< of the path to it, sigma_s and its density q included
+    MediumStack bodies;
   };
   /// A direction that is sampled from a vertex: a continuation of its path.
   struct SampledDirection {
@@ -167,8 +169,8 @@ private:
   std::vector<EnvironmentMap::Place> places_; ///< parallel to escaped_
   std::vector<Path*> arrived_;                ///< at a surface
   MediumWay way_;                             ///< of the ray in flight
-  std::vector<MediumVertex> light_vertices_;  ///< points in media that lights are sampled for
-  std::vector<MediumVertex> collisions_;      ///< of paths that end in a medium
+  std::vector<MediumLightVertex> light_vertices_;
+  std::vector<MediumVertex> collisions_; ///< of paths that end in a medium
 
   // Of the lanes in flight.
   VertexLanes vertices_;

@@ -64,8 +64,7 @@ PathTracer::RayEnd PathTracer::pass_active_media(std::size_t index, bool met, Hi
         path.throughput *=
             sigma_s_of(*collision) * collision->transmittance / way_.collision_pdf(*collision, channels);
         media_[index] = collision->stretch->bodies;
-        collisions_.push_back({&path, way_.position(*collision), &phase_of(*collision), path.throughput,
-                               collision->stretch->bodies, pdf_ratio});
+        collisions_.push_back({&path, way_.position(*collision), &phase_of(*collision), pdf_ratio});
         return RayEnd::collision;
       }
     }
@@ -109,7 +108,8 @@ std::optional<EquiangularSampling> PathTracer::equiangular_about_light(const Pat
     return std::nullopt;
   const auto pivot = light_pivot(light, context, choice->u, path.sampler);
   if (!pivot) return std::nullopt;
-  return EquiangularSampling(ray.origin, ray.direction, *pivot, begin, end);
+  const EquiangularSampling about(ray.origin, ray.direction, *pivot, begin, end);
+  return about.is_usable() ? std::optional(about) : std::nullopt;
 }
 
 /// Chooses a point on the ray that lights are sampled for, light_vertices_. Returns MediumVertex::pdf_ratio
@@ -140,8 +140,9 @@ float PathTracer::choose_light_vertex(Path& path, const Ray& ray, Spectrum chann
     const float pdf = density(*point);
     const Spectrum throughput = path.throughput * sigma_s_of(*point) * point->transmittance / pdf;
     if (!is_black(throughput))
-      light_vertices_.push_back({&path, way_.position(*point), &phase_of(*point), throughput,
-                                 point->stretch->bodies, ratio(*point, pdf)});
+      light_vertices_.push_back({{&path, way_.position(*point), &phase_of(*point), ratio(*point, pdf)},
+                                 throughput,
+                                 point->stretch->bodies});
   }
   return collision != nullptr ? ratio(*collision, density(*collision)) : 0;
 }
@@ -162,7 +163,7 @@ void PathTracer::sample_lights_in_media(int depth, StopPoll& stop) {
     shading_points_.coherent = false;
     shading_points_.draw = 1; // the segment may end at a surface, which has the numbers of 0
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-      const MediumVertex& v = vertices[i];
+      const MediumLightVertex& v = vertices[i];
       vertices_.set_in_medium(i, v.position, v.path->ray.direction, v.path->ray.time, *v.phase);
       shading_points_.lane[i] = i;
       shading_points_.sampler[i] = &v.path->sampler;
@@ -176,7 +177,7 @@ void PathTracer::sample_lights_in_media(int depth, StopPoll& stop) {
                                                            depth + 1);
     if (layers_.empty()) continue;
     for (const LayeredLight& part : layered_light_) {
-      const MediumVertex& v = vertices[part.lane];
+      const MediumLightVertex& v = vertices[part.lane];
       layer(*v.path, part.layer).add(v.throughput * part.light, depth + 1);
     }
   }

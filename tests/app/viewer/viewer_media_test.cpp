@@ -29,6 +29,13 @@ TEST(ViewerMediaUi, AFogIsAddedAndFillsTheScene) {
   ASSERT_EQ(hand.document().scene.media.size(), 1u);
   hand.choose("scene.medium", "fog");
   EXPECT_EQ(hand.document().scene.medium, "fog");
+  hand.click("medium.name");
+  hand.key_down(Key::left_control), hand.key(Key::a), hand.key_up(Key::left_control);
+  hand.type("mist");
+  hand.key(Key::enter);
+  hand.frame(2);
+  EXPECT_EQ(hand.document().scene.media[0].name, "mist");
+  EXPECT_EQ(hand.document().scene.medium, "mist");
   hand.choose("phase.type", "henyey_greenstein");
   hand.type_into("phase.g", "0.5");
   EXPECT_EQ(std::get<HenyeyGreensteinPhase>(hand.document().scene.media[0].phase.model).g, 0.5f);
