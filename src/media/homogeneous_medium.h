@@ -3,6 +3,7 @@
 #include "core/ray.h"
 #include "core/spectrum.h"
 #include "media/phase_function.h"
+#include "media/transmittance_estimate.h"
 #include "sampling/sampler.h"
 
 namespace candela {
@@ -22,8 +23,9 @@ struct HomogeneousMedium {
   /// sigma_t times a distance, which may be infinite.
   Spectrum optical_depth(float distance) const { return times_distance(sigma_t(), distance); }
   /// exp(-sigma_t distance), by Beer and Lambert.
-  Spectrum transmittance(const Ray&, float distance, const Sampler&) const {
-    return glm::exp(-optical_depth(distance));
+  TransmittanceEstimate transmittance(const Ray&, float distance, const Sampler&) const {
+    const Spectrum passes = glm::exp(-optical_depth(distance));
+    return {passes, scatters() ? passes : Spectrum(1)};
   }
 
   /// What arrives at the start of a ray of what its first `distance` sends out: the integral of sigma_a x

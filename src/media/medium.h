@@ -2,23 +2,22 @@
 // What fills the space between surfaces, as one value.
 
 #include "core/variant.h"
-#include "media/homogeneous_medium.h"
+#include "media/grid_medium.h"
 
 namespace candela {
 
-/// - transmittance: the share of light that passes the ray's first `distance` (scene units; may be infinite;
-///   the ray's direction is of any length), or an unbiased estimate of it. The sampler is for media that
-///   estimate: they must not draw what is drawn elsewhere at the same bounce.
+/// - transmittance: of the ray's first `distance` (scene units; may be infinite; the ray's direction is of
+///   any length). The sampler is for media that estimate it.
 /// - scatters, emits: whether it does so anywhere.
 template <class M>
 concept MediumModel = requires(const M& m, const Ray& ray, float distance, const Sampler& sampler) {
-  { m.transmittance(ray, distance, sampler) } -> std::same_as<Spectrum>;
+  { m.transmittance(ray, distance, sampler) } -> std::same_as<TransmittanceEstimate>;
   { m.scatters() } -> std::same_as<bool>;
   { m.emits() } -> std::same_as<bool>;
 };
 
 /// All media: a new one is a file of its own, and a name here.
-using Medium = std::variant<HomogeneousMedium>;
+using Medium = std::variant<HomogeneousMedium, GridMedium>;
 
 namespace detail {
 
@@ -32,11 +31,15 @@ static_assert(are_medium_models(static_cast<const Medium*>(nullptr)));
 
 // As MediumModel's members of the same names.
 
-inline Spectrum transmittance(const Ray& ray, float distance, const Medium& medium, const Sampler& sampler) {
+inline TransmittanceEstimate transmittance(const Ray& ray, float distance, const Medium& medium,
+                                           const Sampler& sampler) {
   return visit_variant([&](const auto& m) { return m.transmittance(ray, distance, sampler); }, medium);
 }
 inline bool medium_scatters(const Medium& medium) {
   return visit_variant([](const auto& m) { return m.scatters(); }, medium);
+}
+inline const PhaseFunction& phase_function(const Medium& medium) {
+  return visit_variant([](const auto& m) -> const PhaseFunction& { return m.phase; }, medium);
 }
 inline bool medium_emits(const Medium& medium) {
   return visit_variant([](const auto& m) { return m.emits(); }, medium);

@@ -110,30 +110,77 @@ std::span<const Field<PhaseDesc>> phase_fields(const PhaseDesc& phase) {
 
 namespace {
 
+Spectrum extinction_of(const MediumDesc& desc, const HomogeneousMediumModel& model, const PhaseFunction&) {
+  return model.sigma_t * desc.scale;
+}
 Medium medium_of(const MediumDesc& desc, const HomogeneousMediumModel& model, const PhaseFunction& phase,
-                 Spectrum absorption) {
+                 const MediumContext& context) {
   const Spectrum sigma_t = model.sigma_t * desc.scale;
-  return HomogeneousMedium{sigma_t * (1.0f - model.albedo) + absorption, sigma_t * model.albedo,
+  return HomogeneousMedium{sigma_t * (1.0f - model.albedo) + context.absorption, sigma_t * model.albedo,
                            desc.emission, phase};
 }
 
 /// By the similarity of phase functions (Wyman, Patterson & Wilson 1989) sigma_s (1 - g) is what was
 /// measured.
-Medium medium_of(const MediumDesc& desc, const MeasuredMediumModel& model, const PhaseFunction& phase,
-                 Spectrum absorption) {
+HomogeneousMedium measured_medium(const MediumDesc& desc, const MeasuredMediumModel& model,
+                                  const PhaseFunction& phase) {
   const MeasuredMedium& measured = kMeasuredMedia[static_cast<std::size_t>(model.material)];
-  return HomogeneousMedium{measured.sigma_a * desc.scale + absorption,
-                           measured.reduced_sigma_s * (desc.scale / (1 - mean_cosine(phase))), desc.emission,
-                           phase};
+  return {measured.sigma_a * desc.scale, measured.reduced_sigma_s * (desc.scale / (1 - mean_cosine(phase))),
+          desc.emission, phase};
+}
+Spectrum extinction_of(const MediumDesc& desc, const MeasuredMediumModel& model, const PhaseFunction& phase) {
+  return measured_medium(desc, model, phase).sigma_t();
+}
+Medium medium_of(const MediumDesc& desc, const MeasuredMediumModel& model, const PhaseFunction& phase,
+                 const MediumContext& context) {
+  HomogeneousMedium medium = measured_medium(desc, model, phase);
+  medium.sigma_a += context.absorption;
+  return medium;
+}
+
+Medium grid_medium(const MediumDesc& desc, const GridPlacement& placement,
+                   const std::shared_ptr<const VolumeGrid>& grid, const PhaseFunction& phase,
+                   const MediumContext& context) {
+  if (!grid) return HomogeneousMedium{.sigma_a = context.absorption, .phase = phase};
+  GridMedium medium;
+  medium.values = grid;
+  medium.bricks = context.grids != nullptr ? context.grids->bricks(grid) : std::make_shared<BrickGrid>(*grid);
+  // The lower corner is at -1/2 cell.
+  medium.cells_per_unit = vec3(grid->cells) / placement.size;
+  medium.first_cell = (placement.center - 0.5f * placement.size) * medium.cells_per_unit + 0.5f;
+  medium.density_sigma_t = placement.sigma_t * desc.scale;
+  medium.albedo = placement.albedo;
+  medium.absorption = context.absorption;
+  medium.emission = desc.emission;
+  if (placement.temperature > 0 && max_component(desc.emission) > 0)
+    medium.glow = std::make_shared<const GlowTable>(placement.temperature);
+  medium.phase = phase;
+  medium.estimator = context.estimator;
+  return medium;
+}
+Spectrum extinction_of(const MediumDesc& desc, const GridPlacement& placement, const PhaseFunction&) {
+  return placement.sigma_t * desc.scale;
+}
+Medium medium_of(const MediumDesc& desc, const GridMediumModel& model, const PhaseFunction& phase,
+                 const MediumContext& context) {
+  return grid_medium(desc, model, model.grid, phase, context);
+}
+
+PhaseFunction phase_of_desc(const PhaseDesc& phase) {
+  return std::visit([](const auto& model) -> PhaseFunction { return model.closure(); }, phase.model);
 }
 
 } // namespace
 
-Medium make_medium(const MediumDesc& medium, Spectrum absorption) {
-  const PhaseFunction phase =
-      std::visit([](const auto& model) -> PhaseFunction { return model.closure(); }, medium.phase.model);
-  return std::visit([&](const auto& model) { return medium_of(medium, model, phase, absorption); },
+Medium make_medium(const MediumDesc& medium, const MediumContext& context) {
+  const PhaseFunction phase = phase_of_desc(medium.phase);
+  return std::visit([&](const auto& model) { return medium_of(medium, model, phase, context); },
                     medium.model);
+}
+
+Spectrum medium_extinction(const MediumDesc& medium) {
+  const PhaseFunction phase = phase_of_desc(medium.phase);
+  return std::visit([&](const auto& model) { return extinction_of(medium, model, phase); }, medium.model);
 }
 
 std::string media_problem(const std::vector<MediumDesc>& media) {

@@ -1,9 +1,11 @@
 #pragma once
 // Media of every model as scenes describe them, and their rows.
 
+#include "media/grid_cache.h"
 #include "media/measured_media.h"
 #include "media/medium.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,8 +22,7 @@ struct MediumRow : FieldInfo {
 //   kName, kHelp   what files call it, and what it is in a few words
 //   rows()         a std::array of MediumRow, one for each of its values
 //
-// and medium_of(desc, model, phase, absorption), the medium as transport needs it (media/medium.h), with that
-// absorption coefficient (1/scene unit) added.
+// and in medium_desc.cpp medium_of(), the medium as transport needs it (media/medium.h), and extinction_of().
 
 /// The same everywhere.
 struct HomogeneousMediumModel {
@@ -68,8 +69,53 @@ struct MeasuredMediumModel {
   }
 };
 
+/// Where a grid's box stands in the world, axis by axis, and what its values mean.
+struct GridPlacement {
+  vec3 center{0}, size{2}; ///< scene units
+  vec3 sigma_t{1};         ///< extinction coefficient where the density is 1, 1/scene unit
+  vec3 albedo{0.75f};      ///< times the grid's colour, if it has any
+  float temperature = 0;   ///< of the temperature 1, kelvin; 0: what is sent out does not depend on it
+  bool operator==(const GridPlacement&) const = default;
+};
+
+template <class Model>
+constexpr auto grid_rows() {
+  using Row = MediumRow<Model>;
+  return std::array{
+      Row{{"sigma_t",
+           FieldType::color,
+           0,
+           1e6,
+           "1/scene unit",
+           "Extinction coefficient where the density is 1",
+           Invalidates::image,
+           {},
+           true},
+          &Model::sigma_t},
+      Row{{"albedo", FieldType::color, 0, 1, "",
+           "Share of the light that is scattered where it meets matter; the rest is absorbed"},
+          &Model::albedo},
+      Row{{"center", FieldType::point, -1e9, 1e9, "scene units", "Centre of the box that the grid fills"},
+          &Model::center},
+      Row{{"size", FieldType::point, 1e-6, 1e9, "scene units", "Of that box, along each axis"}, &Model::size},
+      Row{{"temperature", FieldType::real, 0, 20000, "K",
+           "Of the hottest place (temperature 1): emission is its radiance, and cooler ones are redder and "
+           "darker as black bodies are; 0: emission is the same everywhere"},
+          &Model::temperature}};
+}
+
+/// The values of a file.
+struct GridMediumModel : GridPlacement {
+  std::shared_ptr<const VolumeGrid> grid;                  ///< null: none yet, and nothing is there
+  bool operator==(const GridMediumModel&) const = default; ///< grids by identity
+
+  static constexpr std::string_view kName = "grid";
+  static constexpr std::string_view kHelp = "smoke, cloud or fire of a file of densities";
+  static constexpr auto rows() { return grid_rows<GridMediumModel>(); }
+};
+
 /// A new one is its struct, and its name here.
-using MediumDescModel = std::variant<HomogeneousMediumModel, MeasuredMediumModel>;
+using MediumDescModel = std::variant<HomogeneousMediumModel, MeasuredMediumModel, GridMediumModel>;
 
 /// A phase function and its values, as a part of a medium.
 struct PhaseDesc {
@@ -106,8 +152,16 @@ void change_type(PhaseDesc& phase, int type);
 std::span<const Field<MediumDesc>> medium_fields(const MediumDesc& medium);
 std::span<const Field<PhaseDesc>> phase_fields(const PhaseDesc& phase);
 
-/// As transport needs it, with an absorption coefficient (1/scene unit) added.
-Medium make_medium(const MediumDesc& medium, Spectrum absorption = Spectrum(0));
+/// What make_medium() needs beside the description.
+struct MediumContext {
+  Spectrum absorption{0}; ///< absorption coefficient that is added, 1/scene unit
+  TransmittanceEstimator estimator = TransmittanceEstimator::residual;
+  GridCache* grids = nullptr; ///< null: bricks are made anew
+};
+/// As transport needs it.
+Medium make_medium(const MediumDesc& medium, const MediumContext& context = {});
+/// Its extinction coefficient, 1/scene unit; of a grid where the density is 1.
+Spectrum medium_extinction(const MediumDesc& medium);
 
 /// What is wrong with the media of a scene: "media[0].name: cause; remedy"; empty if all is well.
 std::string media_problem(const std::vector<MediumDesc>& media);

@@ -26,6 +26,7 @@ enum class Dimension : std::uint32_t {
   medium_distance,  ///< where in media a ray collides
   medium_direct,    ///< where in media lights are sampled
   medium_pivot,     ///< near which place on which light that is
+  medium_tracking,  ///< tentative collisions in grids
   count
 };
 

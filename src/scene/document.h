@@ -53,6 +53,7 @@ struct PathSettings {
   LightChoiceBy light_choice = LightChoiceBy::contribution;
   DirectionSampling direction_sampling = DirectionSampling::bsdf;
   MediumSampling medium_sampling = MediumSampling::mis;
+  TransmittanceEstimator transmittance = TransmittanceEstimator::residual;
   int max_depth = -1; ///< 1: emitters seen directly, 2: direct light, -1: no limit
   RussianRoulette rr = RussianRoulette::throughput;
   int rr_depth = 1; ///< the segment after which Russian roulette starts

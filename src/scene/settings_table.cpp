@@ -25,6 +25,7 @@ constexpr std::string_view kDirections[] = {"uniform", "cosine", "bsdf"};
 constexpr std::string_view kRoulette[] = {"off", "throughput", "fixed"};
 constexpr std::string_view kComponents[] = {"all", "emitted", "direct", "indirect"};
 constexpr std::string_view kMediumSamplings[] = {"mis", "distance", "equiangular"};
+constexpr std::string_view kTransmittanceEstimators[] = {"residual", "ratio"};
 constexpr std::string_view kLightGroups[] = {"film", "scene"};
 /// "none", then the materials' types, without those that name other materials.
 std::span<const std::string_view> override_names() {
@@ -82,6 +83,11 @@ const Field<Document> kRows[] = {
       "equiangular (near a sampled light), or both, combined by MIS",
       kImage, kMediumSamplings},
      AT(settings.path.medium_sampling)},
+    {{"path.transmittance", FieldType::choice, 0, 0, "",
+      "What light passes grids of smoke and clouds: estimated as it differs from the mean of each brick "
+      "(residual tracking), or as a whole (ratio tracking)",
+      Invalidates::scene, kTransmittanceEstimators},
+     AT(settings.path.transmittance)},
     {{"path.max_depth", FieldType::integer, -1, 1000000, "segments",
       "Longest path: 1 shows only emitters, 2 also direct light; -1: no limit, except 1024 with path.rr = "
       "off (a limit loses light)"},

@@ -122,7 +122,7 @@ TEST(MediumDesc, MakesCoefficients) {
   desc.model = HomogeneousMediumModel{{1, 2, 4}, {0, 0.5f, 1}};
   desc.scale = 3;
   desc.phase.model = HenyeyGreensteinPhase{0.4f};
-  const auto medium = std::get<HomogeneousMedium>(make_medium(desc, {0, 0, 1}));
+  const auto medium = std::get<HomogeneousMedium>(make_medium(desc, {{0, 0, 1}}));
   EXPECT_EQ(medium.sigma_a, vec3(3, 3, 1));
   EXPECT_EQ(medium.sigma_s, vec3(0, 3, 12));
   EXPECT_EQ(mean_cosine(medium.phase), 0.4f);

@@ -72,8 +72,7 @@ void add_from_presets(Ui& ui, ViewerState& state) {
 
 /// How far light goes, channel by channel.
 void mean_free_path(Ui& ui, const MediumDesc& medium) {
-  const Medium made = make_medium(medium);
-  const Spectrum sigma_t = visit_variant([](const auto& m) { return m.sigma_t(); }, made);
+  const Spectrum sigma_t = medium_extinction(medium);
   std::string text;
   for (int c = 0; c < 3; ++c)
     text += sigma_t[c] > 0 ? fmt::format("{}{:.3g}", c > 0 ? "  " : "", 1 / sigma_t[c])

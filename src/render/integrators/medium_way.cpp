@@ -7,16 +7,8 @@ namespace candela {
 
 namespace {
 
-/// Extinction coefficient as collisions are sampled by: 0 of what does not scatter.
-Spectrum sampled_sigma_t(const MediumStretch& stretch) {
-  if (!stretch.scatters) return Spectrum(0);
-  return visit_variant([](const auto& m) { return m.sigma_t(); }, *stretch.medium);
-}
-
-Spectrum optical_depth(const MediumStretch& stretch, float length) {
-  if (stretch.medium == nullptr) return Spectrum(0);
-  return visit_variant([&](const auto& m) { return m.optical_depth(length); }, *stretch.medium);
-}
+/// Where less than about a third passes grids, light is better sampled where paths collide.
+constexpr float kThickDepth = 1;
 
 /// exp(-depth); that of grey media is computed once.
 Spectrum passed(Spectrum depth) {
@@ -36,7 +28,14 @@ float depth_of_absorbed(float x) {
   return x < kThin ? x * (1 + x * (1.0f / 2 + x * (1.0f / 3 + x * (1.0f / 4)))) : -std::log(1 - x);
 }
 
-/// The channel that u chooses, and u stretched over its interval again.
+} // namespace
+
+Spectrum channel_probabilities(Spectrum throughput) {
+  const Spectrum weight = glm::max(throughput, Spectrum(0));
+  const float sum = weight.x + weight.y + weight.z;
+  return sum > 0 && std::isfinite(sum) ? weight / sum : Spectrum(1.0f / 3);
+}
+
 int choose_channel(Spectrum channels, float& u) {
   for (int c = 0; c < 2; ++c) {
     if (u < channels[c]) {
@@ -48,57 +47,95 @@ int choose_channel(Spectrum channels, float& u) {
   return 2;
 }
 
-} // namespace
-
-Spectrum channel_probabilities(Spectrum throughput) {
-  const Spectrum weight = glm::max(throughput, Spectrum(0));
-  const float sum = weight.x + weight.y + weight.z;
-  return sum > 0 && std::isfinite(sum) ? weight / sum : Spectrum(1.0f / 3);
-}
-
 void MediumWay::start(vec3 direction) {
   direction_ = direction;
+  segments_.clear();
   stretches_.clear();
-  scatters_ = emits_ = lit_ = false;
+  scatters_ = emits_ = lit_ = has_grids_ = thick_ = false;
   transmittance_ = unscattered_ = Spectrum(1);
   depth_ = Spectrum(0);
 }
 
 void MediumWay::add(vec3 origin, float length, const MediumStack& bodies, const Medium* medium, bool sealed) {
-  const float begin = stretches_.empty() ? 0 : stretches_.back().end, end = begin + length;
+  const float begin = segments_.empty() ? 0 : segments_.back().end, end = begin + length;
   const bool scatters = medium != nullptr && medium_scatters(*medium);
-  stretches_.push_back({origin, begin, end, bodies, medium, scatters, transmittance_, unscattered_});
-  if (medium == nullptr) return;
-  const Spectrum depth = optical_depth(stretches_.back(), length), passes = passed(depth);
-  transmittance_ *= passes;
+  segments_.push_back({origin, begin, end, bodies, medium, scatters});
+  if (medium == nullptr) return add_stretch(begin, end, Spectrum(0), Spectrum(0));
   emits_ |= medium_emits(*medium);
+  if (const auto* grid = std::get_if<GridMedium>(medium)) {
+    add_grid(*grid, begin, end);
+  } else {
+    const auto& uniform = std::get<HomogeneousMedium>(*medium);
+    add_stretch(begin, end, scatters ? uniform.sigma_t() : Spectrum(0), uniform.optical_depth(length));
+  }
+  lit_ |= scatters && !sealed;
+}
+
+/// `optical_depth` is that of all that is known to happen on the stretch.
+void MediumWay::add_stretch(float begin, float end, Spectrum sigma_t, Spectrum optical_depth) {
+  const auto segment = static_cast<std::uint32_t>(segments_.size() - 1);
+  stretches_.push_back({begin, end, segment, sigma_t, transmittance_, unscattered_});
+  if (segments_.back().medium == nullptr) return;
+  const Spectrum passes = passed(optical_depth);
+  const bool scatters = max_component(sigma_t) > 0;
+  const bool known = !std::holds_alternative<GridMedium>(*segments_.back().medium);
+  if (known) transmittance_ *= passes;
   if (!scatters) return;
   unscattered_ *= passes;
-  depth_ += depth;
+  depth_ += optical_depth;
   if (!scatters_) {
     scattering_begin_ = begin;
-    free_path_ = 1 / average(visit_variant([](const auto& m) { return m.sigma_t(); }, *medium));
+    free_path_ = 1 / average(sigma_t);
   }
   scattering_end_ = end;
   scatters_ = true;
-  lit_ |= !sealed;
+}
+
+/// Its bricks that hold anything, and what is between them.
+void MediumWay::add_grid(const GridMedium& medium, float begin, float end) {
+  has_grids_ = true;
+  const MediumSegment& segment = segments_.back();
+  const vec3 along = direction_ * medium.cells_per_unit;
+  const vec3 from = medium.to_cells(segment.origin) - begin * along; // at the distance 0
+  float reached = begin;
+  if (medium.has_matter() && !thick_)
+    medium.bricks->walk(from, along, begin, end, [&](const BrickGrid::Place& brick, float first, float last) {
+      const float mean = medium.bricks->bounds(brick).mean;
+      if (!(mean > 0)) return true;
+      if (first > reached) add_stretch(reached, first, Spectrum(0), Spectrum(0));
+      const Spectrum sigma_t = segment.scatters ? mean * medium.density_sigma_t : Spectrum(0);
+      add_stretch(first, last, sigma_t, sigma_t * (last - first));
+      reached = last;
+      thick_ = !whole_ && average(depth_) > kThickDepth;
+      return !thick_;
+    });
+  add_stretch(reached, end, Spectrum(0), Spectrum(0));
+  transmittance_ *= passed(HomogeneousMedium::times_distance(medium.absorption, end - begin));
 }
 
 Spectrum MediumWay::emitted() const {
   Spectrum light(0);
   for (const MediumStretch& stretch : stretches_) {
-    if (stretch.medium == nullptr) continue;
-    const float length = stretch.end - stretch.begin;
-    light += stretch.transmittance *
-             visit_variant([&](const auto& m) { return m.emitted(length); }, *stretch.medium);
+    const Medium* medium = segments_[stretch.segment].medium;
+    if (medium == nullptr) continue;
+    if (const auto* uniform = std::get_if<HomogeneousMedium>(medium))
+      light += stretch.transmittance * uniform->emitted(stretch.end - stretch.begin);
   }
   return light;
 }
 
 MediumPoint MediumWay::point_on(const MediumStretch& stretch, float distance) const {
-  const Spectrum passes = passed(optical_depth(stretch, distance - stretch.begin));
-  return {distance, &stretch, stretch.transmittance * passes,
-          stretch.scatters ? stretch.unscattered * passes : stretch.unscattered};
+  const MediumSegment& segment = segments_[stretch.segment];
+  const float length = distance - stretch.begin;
+  Spectrum transmittance = stretch.transmittance;
+  const Spectrum passes = passed(HomogeneousMedium::times_distance(stretch.sigma_t, length));
+  if (segment.medium != nullptr) {
+    if (const auto* uniform = std::get_if<HomogeneousMedium>(segment.medium))
+      transmittance *= segment.scatters ? passes : passed(uniform->optical_depth(length));
+    else
+      transmittance *= passed(std::get<GridMedium>(*segment.medium).absorption * (distance - segment.begin));
+  }
+  return {distance, &segment, stretch.sigma_t, transmittance, stretch.unscattered * passes};
 }
 
 MediumPoint MediumWay::at(float distance) const {
@@ -110,8 +147,7 @@ MediumPoint MediumWay::at(float distance) const {
 
 std::optional<MediumPoint> MediumWay::at_depth(int channel, float depth) const {
   for (const MediumStretch& stretch : stretches_) {
-    if (!stretch.scatters) continue;
-    const float sigma = sampled_sigma_t(stretch)[channel];
+    const float sigma = stretch.sigma_t[channel];
     if (!(sigma > 0)) continue;
     const float length = depth / sigma;
     if (length < stretch.end - stretch.begin) return point_on(stretch, stretch.begin + length);
@@ -128,12 +164,13 @@ std::optional<MediumPoint> MediumWay::sample_collision(Spectrum channels, vec2 u
 
 float MediumWay::collision_distance(const Medium& medium, Spectrum channels, vec2 u) {
   const int channel = choose_channel(channels, u.x);
-  const float sigma = visit_variant([](const auto& m) { return m.sigma_t(); }, medium)[channel];
+  const auto* uniform = std::get_if<HomogeneousMedium>(&medium);
+  const float sigma = uniform != nullptr ? uniform->sigma_t()[channel] : 0;
   return sigma > 0 ? depth_of_absorbed(u.y) / sigma : kInfinity;
 }
 
 float MediumWay::collision_pdf(const MediumPoint& point, Spectrum channels) const {
-  return glm::dot(channels, sampled_sigma_t(*point.stretch) * point.unscattered);
+  return glm::dot(channels, point.sigma_t * point.unscattered);
 }
 
 std::optional<MediumPoint> MediumWay::sample_forced_collision(Spectrum channels, vec2 u) const {
@@ -143,7 +180,7 @@ std::optional<MediumPoint> MediumWay::sample_forced_collision(Spectrum channels,
 }
 
 float MediumWay::forced_collision_pdf(const MediumPoint& point, Spectrum channels) const {
-  const Spectrum density = channels * sampled_sigma_t(*point.stretch) * point.unscattered;
+  const Spectrum density = channels * point.sigma_t * point.unscattered;
   float pdf = 0;
   for (int c = 0; c < 3; ++c)
     if (depth_[c] > 0) pdf += density[c] / absorbed(depth_[c], unscattered_[c]);

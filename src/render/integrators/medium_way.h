@@ -6,17 +6,26 @@
 #include "media/medium_stack.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace candela {
 
-/// A stretch of the ray that lies in one medium, or in none.
+/// A part of the ray that lies in one medium, or in none.
+struct MediumSegment {
+  vec3 origin;          ///< where it begins
+  float begin, end;     ///< distances along the ray, scene units; the last one's end may be infinite
+  MediumStack bodies;   ///< that it lies in
+  const Medium* medium; ///< null: nothing is there
+  bool scatters;        ///< the medium, somewhere
+};
+
+/// A stretch of a segment where the coefficients are the same: all of it, or of a grid what lies in one of
+/// its bricks, with the brick's mean.
 struct MediumStretch {
-  vec3 origin;            ///< where it begins
-  float begin, end;       ///< distances along the ray, scene units; the last one's end may be infinite
-  MediumStack bodies;     ///< that it lies in
-  const Medium* medium;   ///< null: nothing is there
-  bool scatters;          ///< the medium, somewhere
+  float begin, end;
+  std::uint32_t segment;
+  Spectrum sigma_t;       ///< extinction coefficient as collisions are sampled by: 0 of what does not scatter
   Spectrum transmittance; ///< of the way to its beginning
   Spectrum unscattered;   ///< as MediumPoint has it, likewise
 };
@@ -24,9 +33,11 @@ struct MediumStretch {
 /// A place on the way.
 struct MediumPoint {
   float distance; ///< along the ray, scene units
-  const MediumStretch* stretch;
-  Spectrum transmittance; ///< of the way to it
-  Spectrum unscattered;   ///< the same, where media that do not scatter are left out
+  const MediumSegment* segment;
+  Spectrum sigma_t;       ///< as the stretch has it
+  Spectrum transmittance; ///< of the way to it, but for what grids take
+  /// The same, where media that do not scatter are left out; of grids what their means take.
+  Spectrum unscattered;
 };
 
 /// With what probability a random distance is that of each channel, where their extinction differs; they add
@@ -36,27 +47,41 @@ struct MediumPoint {
 /// stretch it is then what it would have been for the whole way at once.
 Spectrum channel_probabilities(Spectrum throughput);
 
-/// Kept from ray to ray, for it keeps its memory.
+/// The channel that u chooses, and u stretched over its interval again.
+int choose_channel(Spectrum channels, float& u);
+
+/// Kept from ray to ray, for it keeps its memory. Grids are what their bricks' means are: nothing of it is
+/// random, and densities of distances are known. What the grids' own densities make of it is for
+/// medium_tracking.h.
 class MediumWay {
 public:
+  /// `whole`: also grids that hardly anything passes are followed to their end, see is_thick().
+  explicit MediumWay(bool whole = false) : whole_(whole) {}
   void start(vec3 direction);
   /// The next stretch.
   void add(vec3 origin, float length, const MediumStack& bodies, const Medium* medium, bool sealed = false);
 
+  std::span<const MediumSegment> segments() const { return segments_; }
+  vec3 direction() const { return direction_; }
   bool scatters() const { return scatters_; }
+  /// Whether any of it is a grid.
+  bool has_grids() const { return has_grids_; }
+  /// Whether grids take so much that most rays end in them. The rest of the way is not known then: distances
+  /// cannot be sampled, and transmittances are wrong.
+  bool is_thick() const { return thick_; }
   bool emits() const { return emits_; }
   /// Whether light samples may reach a medium that scatters.
   bool is_lit() const { return lit_; }
   /// Of all of it.
   Spectrum transmittance() const { return transmittance_; }
   Spectrum unscattered() const { return unscattered_; }
-  /// Radiance that all of it sends to its start, without what it scatters.
+  /// Radiance that all of it sends to its start, without what it scatters and what grids send.
   Spectrum emitted() const;
 
-  /// What lies at that distance; one stretch does.
+  /// What lies at that distance; one stretch does. In a body whose grid ends before, nothing does.
   MediumPoint at(float distance) const;
   vec3 position(const MediumPoint& point) const {
-    return point.stretch->origin + (point.distance - point.stretch->begin) * direction_;
+    return point.segment->origin + (point.distance - point.segment->begin) * direction_;
   }
 
   // Distances of collisions, of the density (1/scene unit) p(t) = sum over channels of
@@ -65,7 +90,7 @@ public:
 
   /// u.x chooses the channel, u.y the distance. Nothing: it comes through.
   std::optional<MediumPoint> sample_collision(Spectrum channels, vec2 u) const;
-  /// The same on an endless way through one medium.
+  /// The same on an endless way through one medium; infinite where that is a grid.
   static float collision_distance(const Medium& medium, Spectrum channels, vec2 u);
   float collision_pdf(const MediumPoint& point, Spectrum channels) const;
   float pass_probability(Spectrum channels) const { return glm::dot(channels, unscattered_); }
@@ -85,9 +110,14 @@ private:
   std::optional<MediumPoint> at_depth(int channel, float optical_depth) const;
   MediumPoint point_on(const MediumStretch& stretch, float distance) const;
 
+  void add_stretch(float begin, float end, Spectrum sigma_t, Spectrum optical_depth);
+  void add_grid(const GridMedium& medium, float begin, float end);
+
   vec3 direction_{0};
+  std::vector<MediumSegment> segments_;
   std::vector<MediumStretch> stretches_;
-  bool scatters_ = false, emits_ = false, lit_ = false;
+  bool scatters_ = false, emits_ = false, lit_ = false, has_grids_ = false, thick_ = false;
+  bool whole_;
   Spectrum transmittance_{1}, unscattered_{1};
   Spectrum depth_{0}; ///< optical, of media that scatter
   float scattering_begin_ = 0, scattering_end_ = 0, free_path_ = 0;

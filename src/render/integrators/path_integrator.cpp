@@ -6,7 +6,8 @@ namespace candela {
 
 PathTracer::PathTracer(const RenderScene& scene, const PathSettings& settings)
     : scene_(scene), settings_(settings), last_depth_(longest_path(settings)),
-      smooths_terminator_(settings.smooth_terminator && scene.geometry().has_smooth_triangles()) {
+      smooths_terminator_(settings.smooth_terminator && scene.geometry().has_smooth_triangles()),
+      way_(settings.medium_sampling == MediumSampling::equiangular) {
   branched_.reserve(kLaneCount); // draws point into it
 }
 

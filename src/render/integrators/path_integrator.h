@@ -118,6 +118,8 @@ private:
   bool pass_media(std::size_t path, bool met, Hit& hit);
   // Of scenes with active media, in path_media.cpp:
   RayEnd pass_active_media(std::size_t path, bool met, Hit& hit, int depth);
+  RayEnd pass_grids(std::size_t path, const Ray& ray, RayEnd end, const MediumStack& behind, int depth);
+  bool samples_apart() const;
   float collision_distance(const Path& path, int depth) const;
   float choose_light_vertex(Path& path, const Ray& ray, Spectrum channels, const MediumPoint* collision,
                             int depth);

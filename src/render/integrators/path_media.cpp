@@ -9,6 +9,7 @@
 // The place is chosen first, with random numbers that both strategies share. Given it both densities are
 // known, so they are combined by MIS.
 
+#include "render/integrators/medium_tracking.h"
 #include "render/integrators/path_integrator.h"
 
 namespace candela {
@@ -33,11 +34,11 @@ std::optional<vec3> light_pivot(const Light& light, const LightSamplingContext& 
       light);
 }
 
-const PhaseFunction& phase_of(const MediumPoint& point) {
-  return visit_variant([](const auto& m) -> const PhaseFunction& { return m.phase; }, *point.stretch->medium);
-}
-Spectrum sigma_s_of(const MediumPoint& point) {
-  return visit_variant([](const auto& m) { return m.sigma_s; }, *point.stretch->medium);
+const PhaseFunction& phase_of(const MediumPoint& point) { return phase_function(*point.segment->medium); }
+/// Scattering coefficient there, 1/scene unit.
+Spectrum sigma_s_of(const MediumWay& way, const MediumPoint& point) {
+  if (const auto* uniform = std::get_if<HomogeneousMedium>(point.segment->medium)) return uniform->sigma_s;
+  return std::get<GridMedium>(*point.segment->medium).sigma_s_at(way.position(point));
 }
 
 } // namespace
@@ -53,6 +54,7 @@ PathTracer::RayEnd PathTracer::pass_active_media(std::size_t index, bool met, Hi
   met = intersect_through_opacity(scene_, path.ray, path.sampler, met, hit, counts_, &passage,
                                   cone_of_view(path));
   const RayEnd end = met ? RayEnd::surface : RayEnd::escaped;
+  if (way_.has_grids()) return pass_grids(index, ray, end, passage.media, depth);
   if (way_.emits() && shows_depth(settings_, depth)) add_medium_emission(path, way_.emitted(), depth);
   if (way_.scatters()) {
     const Spectrum channels = channel_probabilities(path.throughput);
@@ -61,9 +63,9 @@ PathTracer::RayEnd PathTracer::pass_active_media(std::size_t index, bool met, Hi
       const float pdf_ratio =
           choose_light_vertex(path, ray, channels, collision ? &*collision : nullptr, depth);
       if (collision) {
-        path.throughput *=
-            sigma_s_of(*collision) * collision->transmittance / way_.collision_pdf(*collision, channels);
-        media_[index] = collision->stretch->bodies;
+        path.throughput *= sigma_s_of(way_, *collision) * collision->transmittance /
+                           way_.collision_pdf(*collision, channels);
+        media_[index] = collision->segment->bodies;
         collisions_.push_back({&path, way_.position(*collision), &phase_of(*collision), pdf_ratio});
         return RayEnd::collision;
       }
@@ -87,6 +89,50 @@ float PathTracer::collision_distance(const Path& path, int depth) const {
   if (!medium_scatters(medium) || medium_emits(medium)) return kInfinity;
   return MediumWay::collision_distance(medium, channel_probabilities(path.throughput),
                                        path.sampler.get_2d(Dimension::medium_distance));
+}
+
+/// pass_active_media() where a part of the way is a grid.
+PathTracer::RayEnd PathTracer::pass_grids(std::size_t index, const Ray& ray, RayEnd end,
+                                          const MediumStack& behind, int depth) {
+  Path& path = paths_[index];
+  const Spectrum channels = channel_probabilities(path.throughput);
+  const bool collides = way_.scatters() && depth < last_depth_;
+  TrackingRandom random(path.sampler, ray.origin, ray.direction);
+  const TrackedWay tracked = track(way_, channels, collides, random);
+  if (way_.emits() && shows_depth(settings_, depth)) add_medium_emission(path, tracked.emitted, depth);
+  const auto& collision = tracked.collision;
+  const bool apart = collides && samples_apart();
+  float pdf_ratio = 1;
+  if (apart) {
+    std::optional<MediumPoint> point;
+    if (collision) point = way_.at(collision->distance);
+    pdf_ratio = choose_light_vertex(path, ray, channels, point ? &*point : nullptr, depth);
+  }
+  if (collision) {
+    path.throughput *= collision->weight;
+    media_[index] = collision->segment->bodies;
+    const PhaseFunction& phase = phase_function(*collision->segment->medium);
+    if (!apart && way_.is_lit() && shows_depth(settings_, depth + 1))
+      light_vertices_.push_back(
+          {{&path, collision->position, &phase, 1}, path.throughput, collision->segment->bodies});
+    collisions_.push_back({&path, collision->position, &phase, pdf_ratio});
+    return RayEnd::collision;
+  }
+  path.bsdf_pdf *= std::max(average(tracked.unscattered), std::numeric_limits<float>::min());
+  path.throughput *= tracked.weight;
+  media_[index] = behind;
+  return end;
+}
+
+/// Whether lights are sampled at a point of their own on the way, rather than where the path collides: there
+/// the transmittance, which has to be estimated, cancels; but few paths collide in what is thin.
+bool PathTracer::samples_apart() const {
+  switch (settings_.medium_sampling) {
+  case MediumSampling::distance: return false;
+  case MediumSampling::mis: return !way_.is_thick();
+  case MediumSampling::equiangular: break;
+  }
+  return true;
 }
 
 /// Equiangular sampling about a place on a light that matters somewhere in the beginning of the media;
@@ -126,7 +172,10 @@ float PathTracer::choose_light_vertex(Path& path, const Ray& ray, Spectrum chann
     if (share > 0) pdf += share * equiangular->pdf(point.distance);
     return pdf;
   };
-  auto ratio = [&](const MediumPoint& point, float pdf) { return way_.collision_pdf(point, channels) / pdf; };
+  // Where rounding has taken a collision out of its brick, it is the only way to be there.
+  auto ratio = [&](const MediumPoint& point, float pdf) {
+    return pdf > 0 ? way_.collision_pdf(point, channels) / pdf : kInfinity;
+  };
 
   vec2 u = path.sampler.get_2d(Dimension::medium_direct);
   std::optional<MediumPoint> point;
@@ -136,13 +185,18 @@ float PathTracer::choose_light_vertex(Path& path, const Ray& ray, Spectrum chann
     u.x = (u.x - share) / (1 - share);
     point = way_.sample_forced_collision(channels, u);
   }
-  if (point && point->stretch->scatters) {
+  if (point && max_component(point->sigma_t) > 0) {
     const float pdf = density(*point);
-    const Spectrum throughput = path.throughput * sigma_s_of(*point) * point->transmittance / pdf;
+    Spectrum throughput = path.throughput * sigma_s_of(way_, *point) * point->transmittance / pdf;
+    if (way_.has_grids() && !is_black(throughput)) {
+      TrackingRandom random(path.sampler, ray.direction,
+                            ray.origin); // not the numbers of the path's collision
+      throughput *= track_transmittance(way_, point->distance, random);
+    }
     if (!is_black(throughput))
       light_vertices_.push_back({{&path, way_.position(*point), &phase_of(*point), ratio(*point, pdf)},
                                  throughput,
-                                 point->stretch->bodies});
+                                 point->segment->bodies});
   }
   return collision != nullptr ? ratio(*collision, density(*collision)) : 0;
 }

@@ -13,10 +13,9 @@ Spectrum transmittance(const RenderScene& scene, const MediumStack& bodies, cons
                        const Sampler& sampler, Spectrum* unscattered = nullptr) {
   const MediumId id = scene.filling(bodies);
   if (!id) return Spectrum(1);
-  const Medium& medium = scene.medium(id);
-  const Spectrum passes = transmittance(ray, distance, medium, sampler);
-  if (unscattered != nullptr && medium_scatters(medium)) *unscattered *= passes;
-  return passes;
+  const TransmittanceEstimate passes = transmittance(ray, distance, scene.medium(id), sampler);
+  if (unscattered != nullptr) *unscattered *= passes.expected;
+  return passes.value;
 }
 
 /// Whether the surface that the ray, which is in `media`, meets is not there.

@@ -10,7 +10,7 @@ std::uint16_t SceneMaterials::medium_index(const std::string& name, vec3 absorpt
                                                         static_cast<std::uint16_t>(media_.size()));
   if (!is_new) return entry->second;
   const auto desc = std::ranges::find(source_media_, name, &MediumDesc::name);
-  media_.push_back(desc != source_media_.end() ? make_medium(*desc, absorption)
+  media_.push_back(desc != source_media_.end() ? make_medium(*desc, {absorption, source_estimator_, &grids_})
                                                : Medium(HomogeneousMedium{absorption}));
   media_iors_.push_back(ior);
   if (media_.size() >= MediumId::kNone)
@@ -37,6 +37,7 @@ void SceneMaterials::add_media(const std::vector<const Material*>& materials) {
     materials_.set_medium_inside(i, {index, static_cast<std::int16_t>(inside.priority)});
   }
   if (!source_world_.empty()) world_medium_ = {medium_index(source_world_, vec3(0), 1), 0};
+  grids_.trim();
   for (const Medium& medium : media_) {
     has_scattering_ |= medium_scatters(medium);
     has_emission_ |= medium_emits(medium);

@@ -44,7 +44,8 @@ SceneMaterials::SceneMaterials(const Document& document, const SceneMaterials* p
     : source_(has_factors(document) ? grouped_materials(document.scene) : document.scene.materials),
       textures_(document.scene.textures), override_(document.settings.override_brdf),
       source_media_(has_factors(document) ? grouped_media(document.scene) : document.scene.media),
-      source_world_(document.scene.medium) {
+      source_world_(document.scene.medium), source_estimator_(document.settings.path.transmittance),
+      grids_(previous != nullptr ? &previous->grids_ : nullptr) {
   add_materials(document, [&](const ImageTexture& image, ColorSpace space) {
     auto fits = [&](const auto& pyramid) {
       return pyramid->texels() == image.texels && pyramid->color_space() == space;
@@ -72,7 +73,8 @@ std::shared_ptr<const SceneMaterials> SceneMaterials::of(const Document& documen
       previous->override_ == document.settings.override_brdf &&
       is_grouped(previous->source_media_, document.scene, has_factors(document), document.scene.media,
                  grouped_media) &&
-      previous->source_world_ == document.scene.medium)
+      previous->source_world_ == document.scene.medium &&
+      previous->source_estimator_ == document.settings.path.transmittance)
     return previous;
   return std::make_shared<const SceneMaterials>(document, previous.get(), progress);
 }
@@ -80,6 +82,7 @@ std::shared_ptr<const SceneMaterials> SceneMaterials::of(const Document& documen
 std::size_t SceneMaterials::memory_bytes() const {
   std::size_t bytes = materials_.memory_bytes();
   for (const auto& pyramid : pyramids_) bytes += pyramid->memory_bytes();
+  bytes += grids_.memory_bytes();
   std::set<const void*> counted; // several textures may share their texels
   for (const auto& texture : textures_) {
     const ImageTexture* image = texture->image();

@@ -2,6 +2,7 @@
 // The parts of a RenderScene that edits of other parts keep: materials and lights. Each knows what it was
 // made of.
 
+#include "media/grid_cache.h"
 #include "media/medium.h"
 #include "render/lights/emitter_lights.h"
 #include "render/lights/light_selection.h"
@@ -59,10 +60,12 @@ private:
   OverrideSettings override_;
   std::vector<MediumDesc> source_media_;
   std::string source_world_; ///< SceneDesc::medium
+  TransmittanceEstimator source_estimator_;
 
   std::vector<std::shared_ptr<const MipPyramid>> pyramids_; ///< what materials_ point to
   SurfaceMaterials materials_;
   bool has_transparency_ = false, has_invisible_ = false, has_priorities_ = false;
+  GridCache grids_;           ///< of media_
   std::vector<Medium> media_; ///< empty where nothing fills anything, or has a priority
   std::vector<float> media_iors_;
   std::map<std::tuple<std::string, float, float, float, float>, std::uint16_t>

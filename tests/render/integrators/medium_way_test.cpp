@@ -44,7 +44,7 @@ TEST(MediumWay, TransmittanceIsThatOfAllStretches) {
   EXPECT_TRUE(l.way.scatters());
   EXPECT_FALSE(l.way.emits());
   const MediumPoint point = l.way.at(2);
-  EXPECT_EQ(point.stretch->medium, &l.fog);
+  EXPECT_EQ(point.segment->medium, &l.fog);
   EXPECT_NEAR(point.transmittance.z, std::exp(-1.75f), 1e-6f);
   EXPECT_NEAR(l.way.at(2.75f).unscattered.y, std::exp(-0.7f), 1e-6f) << "smoke does not scatter";
   EXPECT_EQ(l.way.position(point), vec3(0, 0, 2));
