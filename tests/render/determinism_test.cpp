@@ -33,7 +33,7 @@ std::vector<Document> documents() {
     s.document.scene.camera.aperture_radius = 0.01f;
     all.push_back(s.document);
   }
-  Document fog = foggy_room(21, 1).document;
+  Document fog = foggy_room(21, 1, true).document;
   fog.settings.film.width = 37;
   fog.settings.sampler.seed = sampler_seed(8);
   all.push_back(fog);

@@ -8,7 +8,7 @@ namespace {
 const vec3 kGrey(1);
 
 /// One direction of view for all pixels.
-void look_down(SceneMaker& s, float from = 3) { s.camera({0, 0, from}, {0, 0, 0}, 1e-3f); }
+void look_into_slab(SceneMaker& s, float from = 3) { s.camera({0, 0, from}, {0, 0, 0}, 1e-3f); }
 
 /// Beer and Lambert: whatever a medium does with the light that it takes, what comes straight through is the
 /// same, and where paths end there it is known without any variance.
@@ -18,7 +18,7 @@ TEST(MediaRender, TransmittanceHasNoVariance) {
     const vec3 sigma(0.3f, 1, 2.5f);
     add_slab(s, 1.5f, boundary(s, add_medium(s, sigma, albedo, HenyeyGreensteinPhase{0.5f})));
     s.constant_light(vec3(2, 3, 4));
-    look_down(s);
+    look_into_slab(s);
     s.document.settings.path.max_depth = 1;
     s.document.settings.sampler.seed = sampler_seed();
     const Film film = render(s.document);
@@ -37,7 +37,7 @@ TEST(MediaRender, WhatOnlyAbsorbsHasNoVariance) {
   SceneMaker s(8, 2, 16);
   add_slab(s, 1, boundary(s, add_medium(s, {0.3f, 1, 2.5f}, vec3(0))));
   s.constant_light(vec3(1));
-  look_down(s);
+  look_into_slab(s);
   const Film film = render(s.document);
   EXPECT_NEAR(film.mean(3, 0).y, std::exp(-1.0f), 2e-6f);
   EXPECT_LT(film.variance_of_mean(3, 0).y, 1e-12f);
@@ -48,7 +48,7 @@ TEST(MediaRender, EmissionIsThatOfTheFormula) {
   SceneMaker s(8, 2, 4);
   add_slab(s, 2, boundary(s, add_medium(s, {0.3f, 1, 0}, vec3(0))));
   s.document.scene.media[0].emission = {3, 5, 7};
-  look_down(s);
+  look_into_slab(s);
   const Film film = render(s.document);
   EXPECT_NEAR(film.mean(1, 1).x, 3 * (1 - std::exp(-0.6f)), 1e-5f);
   EXPECT_NEAR(film.mean(1, 1).y, 5 * (1 - std::exp(-2.0f)), 1e-5f);
@@ -63,7 +63,7 @@ TEST(MediaRender, AnEndlessGlowIsUniform) {
   s.document.scene.medium = add_medium(s, vec3(1), vec3(0.6f), HenyeyGreensteinPhase{0.3f});
   s.document.scene.media[0].emission = vec3(2);
   s.document.settings.sampler.seed = sampler_seed(1);
-  look_down(s);
+  look_into_slab(s);
   expect_radiance(over_pixels(render(s.document), 0), 2, 4e-3, 1);
 }
 
@@ -76,7 +76,7 @@ void expect_single_scattering(vec3 light_direction, double exact, std::uint64_t 
     SceneMaker s(64, 64, 64);
     add_slab(s, 1, boundary(s, add_medium(s, kGrey, vec3(0.9f))));
     add_directional(s, light_direction, vec3(1));
-    look_down(s);
+    look_into_slab(s);
     s.document.settings.path.max_depth = 2;
     s.document.settings.path.medium_sampling = how;
     s.document.settings.sampler.seed = sampler_seed(salt + static_cast<std::uint64_t>(how));
@@ -100,7 +100,7 @@ TEST(MediaClosedFormRender, ADistantLampIsAsASun) {
     lamp.model = PointLightModel{.position = {0.1f * kFar, 0, kFar}};
     lamp.color = vec3(1.01f * kFar * kFar); // irradiance 1
     s.document.scene.lights.push_back(lamp);
-    look_down(s);
+    look_into_slab(s);
     s.document.settings.path.max_depth = 2;
     s.document.settings.path.medium_sampling = how;
     s.document.settings.sampler.seed = sampler_seed(28 + static_cast<std::uint64_t>(how));
@@ -134,7 +134,7 @@ TEST(MediaClosedFormRender, APointLightInFogIsThatOfTheIntegral) {
     lamp.model = PointLightModel{.position = {static_cast<float>(height), 0, 0}};
     lamp.color = vec3(1);
     s.document.scene.lights.push_back(lamp);
-    look_down(s, static_cast<float>(t0));
+    look_into_slab(s, static_cast<float>(t0));
     s.document.settings.path.max_depth = 2;
     s.document.settings.sampler.seed = sampler_seed(30 + static_cast<std::uint64_t>(how));
     s.document.settings.path.medium_sampling = how;
@@ -200,6 +200,20 @@ TEST(MediaClosedFormHeavy, AHalfSpaceReflectsWhatChandrasekharHas) {
   }
 }
 
+/// A grid of one density is the half space, too.
+TEST(MediaClosedFormRender, AUniformGridIsAHalfSpace) {
+  SceneMaker s(64, 64, 128);
+  VolumeGrid grid = random_grid({30, 30, 20}, 1);
+  std::ranges::fill(grid.density, 2.0f);
+  add_slab(
+      s, 300,
+      boundary(s, add_grid(s, std::move(grid), {0, 0, -150}, {1000, 1000, 300}, vec3(0.5f), vec3(0.5f))));
+  s.constant_light(vec3(1));
+  look_into_slab(s);
+  s.document.settings.sampler.seed = sampler_seed(60);
+  expect_radiance(over_pixels(render(s.document), 1), ChandrasekharH(0.5).albedo(1), 8e-3, 1);
+}
+
 struct Furnace {
   const char* name;
   PhaseModel phase;
@@ -216,6 +230,17 @@ TEST(MediaFurnaceRender, WhatLosesNothingIsNotSeen) {
       return s.material(m);
     };
   };
+  // Instead of the medium, a grid that fills the ball unevenly.
+  auto uneven = [](auto surface) {
+    return [surface](SceneMaker& s, const std::string&) {
+      MediumDesc& medium = s.document.scene.media.back();
+      GridMediumModel model;
+      model.sigma_t = std::get<HomogeneousMediumModel>(medium.model).sigma_t, model.albedo = vec3(1);
+      model.grid = std::make_shared<const VolumeGrid>(wavy_grid({32, 21, 40}));
+      medium.model = model;
+      return surface(s, medium.name);
+    };
+  };
   const Furnace cases[] = {
       {"isotropic", IsotropicPhase{}, boundary},
       {"forward", HenyeyGreensteinPhase{0.8f}, boundary},
@@ -224,10 +249,12 @@ TEST(MediaFurnaceRender, WhatLosesNothingIsNotSeen) {
       {"droplets", DropletsPhase{20}, boundary},
       {"glass", IsotropicPhase{}, glass(1.5f)},
       {"bubble", IsotropicPhase{}, glass(0.7f)},
+      {"grid", HenyeyGreensteinPhase{0.6f}, uneven(boundary)},
+      {"grid in glass", IsotropicPhase{}, uneven(glass(1.5f))},
   };
   for (const Furnace& c : cases)
     for (const bool mis : {false, true}) {
-      SceneMaker s(32, 32, 64);
+      SceneMaker s(32, 32, 100);
       // Without light sampling every path of a grey medium returns 1.
       const vec3 sigma = mis ? vec3(2, 0.7f, 5) : vec3(3);
       s.sphere({0, 0, 0}, 1, c.surface(s, add_medium(s, sigma, vec3(1), c.phase)));

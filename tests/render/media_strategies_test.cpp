@@ -20,7 +20,7 @@ Sum sum_of(const Document& document) {
   return sum;
 }
 
-void expect_strategies_agree(int spp, double tolerance) {
+void expect_strategies_agree(int spp, double tolerance, bool cloudy) {
   struct Variation {
     const char* name;
     std::function<void(PathSettings&)> apply;
@@ -41,15 +41,16 @@ void expect_strategies_agree(int spp, double tolerance) {
       {"four paths", [](PathSettings& p) { p.split = 4; }},
       {"lights by power", [](PathSettings& p) { p.light_choice = LightChoiceBy::power; }},
       {"fixed roulette", [](PathSettings& p) { p.rr = RussianRoulette::fixed, p.rr_probability = 0.8f; }},
+      {"ratio tracking", [](PathSettings& p) { p.transmittance = TransmittanceEstimator::ratio; }},
       {"uniform directions", [](PathSettings& p) { p.direction_sampling = DirectionSampling::uniform; }},
   };
-  SceneMaker s = foggy_room(12, spp);
+  SceneMaker s = foggy_room(12, spp, cloudy);
   s.document.settings.path.max_depth = 12;
   std::vector<Sum> sums;
   for (const Variation& v : variations) {
     Document document = s.document;
     v.apply(document.settings.path);
-    document.settings.sampler.seed = sampler_seed(sums.size());
+    document.settings.sampler.seed = sampler_seed(sums.size() + (cloudy ? 20 : 0));
     sums.push_back(sum_of(document));
     const Sum &own = sums.back(), &first = sums.front();
     for (int c = 0; c < 3; ++c) {
@@ -63,8 +64,10 @@ void expect_strategies_agree(int spp, double tolerance) {
   }
 }
 
-TEST(MediaStatistical, StrategiesAgree) { expect_strategies_agree(384, 0.06); }
-TEST(MediaHeavy, StrategiesAgree) { expect_strategies_agree(20000, 0.008); }
+TEST(MediaStatistical, StrategiesAgree) { expect_strategies_agree(384, 0.06, false); }
+TEST(MediaHeavy, StrategiesAgree) { expect_strategies_agree(20000, 0.008, false); }
+TEST(MediaStatistical, StrategiesAgreeAmongClouds) { expect_strategies_agree(256, 0.06, true); }
+TEST(MediaHeavy, StrategiesAgreeAmongClouds) { expect_strategies_agree(10000, 0.01, true); }
 
 /// Single lengths of paths, which a limit of depth must not touch.
 TEST(MediaStatistical, TheLengthsOfPathsAddUp) {

@@ -2,6 +2,7 @@
 // Scenes with media, for the tests of light in them.
 
 #include "render/render_testing.h"
+#include "support/volumes.h"
 
 namespace candela::test {
 
@@ -14,6 +15,17 @@ inline std::string add_medium(SceneMaker& s, vec3 sigma_t, vec3 albedo,
   medium.phase.model = phase;
   s.document.scene.media.push_back(medium);
   return medium.name;
+}
+
+/// A medium of the scene that is a grid in a box; returns its name.
+inline std::string add_grid(SceneMaker& s, VolumeGrid grid, vec3 center, vec3 size, vec3 sigma_t, vec3 albedo,
+                            const PhaseModel& phase = IsotropicPhase{}) {
+  const std::string name = add_medium(s, sigma_t, albedo, phase);
+  GridMediumModel model;
+  model.center = center, model.size = size, model.sigma_t = sigma_t, model.albedo = albedo;
+  model.grid = std::make_shared<const VolumeGrid>(std::move(grid));
+  s.document.scene.media.back().model = model;
+  return name;
 }
 
 /// A surface that is not there around a medium.
@@ -42,9 +54,10 @@ inline void add_directional(SceneMaker& s, vec3 direction, vec3 irradiance) {
 }
 
 /// A floor and a wall in a great ball of coloured fog, with a ball of denser smoke, a lamp with an area, a
-/// directional light and a sky, a glossy ball and a ball of glass with milk in it. No point light: where
+/// directional light and a sky, a glossy ball and a ball of glass with milk in it; if `cloudy`, with a cloud
+/// and a thin plume of grids. No point light: where
 /// places are not chosen for its sake it has no finite variance.
-inline SceneMaker foggy_room(int size, int spp) {
+inline SceneMaker foggy_room(int size, int spp, bool cloudy = false) {
   SceneMaker s(size, size, spp);
   const std::string fog = add_medium(s, {0.15f, 0.3f, 0.6f}, {0.9f, 0.7f, 0.5f}, HenyeyGreensteinPhase{0.4f});
   const std::string smoke = add_medium(s, {3, 2, 1}, {0.4f, 0.8f, 0.9f}, HenyeyGreensteinPhase{-0.4f});
@@ -62,6 +75,14 @@ inline SceneMaker foggy_room(int size, int spp) {
   Material gloss;
   gloss.model = GgxMaterial{};
   s.sphere({0.1f, -0.6f, 1}, 0.35f, s.material(gloss));
+  if (cloudy) {
+    const std::string cloud = add_grid(s, wavy_grid({20, 17, 30}), {0.5f, 1, 0.2f}, vec3(0.9f), {8, 6, 3},
+                                       {0.95f, 0.9f, 0.99f}, HenyeyGreensteinPhase{0.5f});
+    s.sphere({0.5f, 1, 0.2f}, 0.6f, boundary(s, cloud));
+    const std::string plume = add_grid(s, wavy_grid({9, 40, 9}), {-1.2f, -0.1f, 1.4f}, {0.5f, 1.2f, 0.5f},
+                                       {0.5f, 1, 2}, vec3(0.7f));
+    s.sphere({-1.2f, -0.1f, 1.4f}, 0.7f, boundary(s, plume));
+  }
   add_directional(s, {0.3f, -1, -0.5f}, {1, 0.9f, 0.7f});
   s.constant_light({0.1f, 0.15f, 0.3f});
   s.camera({0, 0.4f, 1.9f}, {0, 0.1f, 0}, 60);

@@ -12,12 +12,12 @@ struct RayTracking {
   const MediumWay& way;
   bool collides;
   TrackingRandom& random;
-  Spectrum density;         ///< q x the channels' probabilities
-  Spectrum contribution{1}; ///< f
-  Spectrum mean_depth{0};   ///< optical, of what scatters, by the bricks' means
+  Spectrum density_of_channels; ///< q x the channels' probabilities
+  Spectrum contribution{1};     ///< f
+  Spectrum mean_depth{0};       ///< optical, of what scatters, by the bricks' means
   TrackedWay out{};
 
-  float density_sum() const { return density.x + density.y + density.z; }
+  float density_sum() const { return density_of_channels.x + density_of_channels.y + density_of_channels.z; }
   /// Of the path that has come so far.
   Spectrum weight() const {
     if (!collides) return contribution;
@@ -35,7 +35,7 @@ struct RayTracking {
   vec3 cell_at(const MediumSegment& segment, const GridMedium& medium, float t) const {
     return medium.to_cells(segment.origin + (t - segment.begin) * way.direction());
   }
-  /// Ends the path there: `scattered` is f of it, `pdf` its density.
+  /// Ends the path there: `scattered` is f of it, `pdf` its density_of_channels.
   void collide(const MediumSegment& segment, float t, Spectrum scattered, float pdf) {
     out.collision = {&segment, t, segment.origin + (t - segment.begin) * way.direction(),
                      pdf > 0 ? scattered / pdf : Spectrum(0)};
@@ -57,21 +57,21 @@ bool RayTracking::follow(const MediumSegment& segment, const HomogeneousMedium& 
   const Spectrum sigma_t = medium.sigma_t();
   mean_depth += medium.optical_depth(length);
   if (collides) {
-    const float sum = density_sum(), through = glm::dot(density, passes) / sum;
+    const float sum = density_sum(), through = glm::dot(density_of_channels, passes) / sum;
     if (!(random.next() < through)) {
       float u = random.next();
-      const int channel = choose_channel(density * (1.0f - passes) / (sum * (1 - through)), u);
+      const int channel = choose_channel(density_of_channels * (1.0f - passes) / (sum * (1 - through)), u);
       // Of the depth before the end, by inversion.
       const float absorbed = -std::expm1(-sigma_t[channel] * length);
       const float t = std::min(-std::log1p(-u * absorbed) / sigma_t[channel], length);
       const Spectrum at = glm::exp(-sigma_t * t);
       collide(segment, segment.begin + t, contribution * at * medium.sigma_s,
-              glm::dot(density, sigma_t * at));
+              glm::dot(density_of_channels, sigma_t * at));
       return false;
     }
   }
   contribution *= passes;
-  density *= passes;
+  density_of_channels *= passes;
   return true;
 }
 
@@ -98,43 +98,50 @@ bool RayTracking::follow_brick(const MediumSegment& segment, const GridMedium& m
   const BrickBounds& bounds = medium.bricks->bounds(brick);
   if (!(bounds.most > 0)) return true;
   if (segment.scatters) mean_depth += bounds.mean * (last - first) * medium.density_sigma_t;
-  const float majorant = bounds.most * max_component(medium.density_sigma_t);
+  // Where no collision ends the path, its transmittance is estimated as GridMedium does.
+  const bool estimates = !segment.scatters || !collides;
+  const bool residual = estimates && medium.estimator == TransmittanceEstimator::residual;
+  const float control = residual ? bounds.mean : 0;
+  const float majorant = (residual ? bounds.spread : bounds.most) * max_component(medium.density_sigma_t);
   // Emission is looked for at one place of each brick, however thin it is.
   float shines_at = medium.emits() ? first + random.next() * (last - first) : kInfinity;
+  auto known = [&](float t) { return glm::exp(-control * (t - first) * medium.density_sigma_t); };
   for (float t = first;;) {
-    const float next = t + left / majorant;
+    const float next = majorant > 0 ? t + left / majorant : kInfinity;
     if (shines_at < std::min(next, last)) {
       const vec3 cell = cell_at(segment, medium, shines_at);
       const Spectrum sigma_t = medium.bricks->density(brick, cell) * medium.density_sigma_t;
-      out.emitted += weight() * absorbed_to(segment, medium, shines_at) * medium.emitted_at(cell, sigma_t) *
-                     (last - first);
+      out.emitted += weight() * known(shines_at) * absorbed_to(segment, medium, shines_at) *
+                     medium.emitted_at(cell, sigma_t) * (last - first);
       shines_at = kInfinity;
     }
     if (!(next < last)) {
       left = std::max(left - majorant * (last - t), 0.0f);
+      if (residual) contribution *= known(last);
       return true;
     }
     t = next;
     left = random.next_depth();
     const vec3 cell = cell_at(segment, medium, t);
-    const Spectrum real =
-        glm::min(medium.bricks->density(brick, cell) / majorant * medium.density_sigma_t, Spectrum(1));
-    if (!segment.scatters || !collides) { // ratio tracking
-      contribution *= 1.0f - real;
-      if (!(max_component(contribution) > 0)) return false;
+    const float density = medium.bricks->density(brick, cell);
+    const Spectrum real = (density - control) / majorant * medium.density_sigma_t;
+    if (estimates) {
+      contribution *= 1.0f - glm::min(real, Spectrum(1));
+      if (!(max_component(glm::abs(contribution)) > 0)) return false;
       continue;
     }
-    const float sum = density_sum(), pdf = glm::dot(density, real);
+    const float sum = density_sum(), pdf = glm::dot(density_of_channels, real);
     if (random.next() * sum < pdf) {
       collide(segment, t, contribution * real * medium.albedo_at(cell), pdf);
       return false;
     }
-    contribution *= 1.0f - real;
-    density *= 1.0f - real;
-    // Only their ratios matter.
-    const float scale = density_sum();
+    // By rounding an extinction may be above its majorant.
+    const Spectrum passes = glm::max(1.0f - real, Spectrum(0));
+    contribution *= passes;
+    density_of_channels *= passes;
+    const float scale = density_sum(); // only their ratios matter
     if (!(scale > 0)) return false;
-    contribution /= scale, density /= scale;
+    contribution /= scale, density_of_channels /= scale;
   }
 }
 

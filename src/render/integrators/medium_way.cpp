@@ -44,6 +44,7 @@ int choose_channel(Spectrum channels, float& u) {
     }
     u -= channels[c];
   }
+  u = std::min(u / channels.z, kOneMinusEpsilon);
   return 2;
 }
 
