@@ -162,6 +162,7 @@ std::string_view view_unit(View view) {
   case View::radiance: return "W/(m^2 sr)";
   case View::variance: return "(W/(m^2 sr))^2";
   case View::depth: return "scene units";
+  case View::optical_depth: return "optical depth";
   case View::bvh_cost: return "nodes and primitives";
   case View::samples:
   case View::nonfinite: return "samples";

@@ -10,6 +10,7 @@ enum class View : int {
   normal,           ///< shading normal
   geometric_normal, ///< by the winding of triangles
   depth,
+  optical_depth, ///< of the media between the camera and the first surface
   uv,
   material,
   bvh_cost,    ///< nodes and primitives tested for the camera ray

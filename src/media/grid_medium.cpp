@@ -81,6 +81,19 @@ TransmittanceEstimate GridMedium::transmittance(const Ray& ray, float distance,
   return {absorbed * tracked, glm::exp(-mean_depth * density_sigma_t)};
 }
 
+Spectrum GridMedium::estimate_optical_depth(vec3 origin, vec3 direction, float distance,
+                                            TrackingRandom& random) const {
+  Spectrum depth = HomogeneousMedium::times_distance(absorption, distance);
+  const vec3 from = to_cells(origin), along = direction * cells_per_unit;
+  bricks->walk(from, along, 0, distance, [&](const BrickGrid::Place& brick, float first, float last) {
+    if (!(bricks->bounds(brick).most > 0)) return true;
+    const float t = glm::mix(first, last, random.next());
+    depth += bricks->density(brick, from + t * along) * (last - first) * density_sigma_t;
+    return true;
+  });
+  return depth;
+}
+
 /// With a control variate c in each brick (residual tracking: Novak, Selle & Jarosz 2014, "Residual Ratio
 /// Tracking for Estimating Attenuation in Participating Media"; c = 0: ratio tracking), the estimate is
 /// exp(-integral of c) x product over tentative collisions of 1 - (sigma - c) / majorant.

@@ -2,7 +2,6 @@
 
 #include "media/brick_grid.h"
 #include "media/homogeneous_medium.h"
-#include "media/tracking_random.h"
 
 #include <array>
 #include <optional>
@@ -57,6 +56,8 @@ struct GridMedium {
   }
 
   TransmittanceEstimate transmittance(const Ray& ray, float distance, const Sampler& sampler) const;
+
+  Spectrum estimate_optical_depth(vec3 origin, vec3 direction, float distance, TrackingRandom& random) const;
 
   /// The estimate of the grid's transmittance between two distances along a ray of unit direction, without
   /// `absorption`. `mean_depth`, if not null, grows by the integral of the bricks' mean densities.

@@ -3,6 +3,7 @@
 #include "core/ray.h"
 #include "core/spectrum.h"
 #include "media/phase_function.h"
+#include "media/tracking_random.h"
 #include "media/transmittance_estimate.h"
 #include "sampling/sampler.h"
 
@@ -22,6 +23,9 @@ struct HomogeneousMedium {
 
   /// sigma_t times a distance, which may be infinite.
   Spectrum optical_depth(float distance) const { return times_distance(sigma_t(), distance); }
+  Spectrum estimate_optical_depth(vec3, vec3, float distance, TrackingRandom&) const {
+    return optical_depth(distance);
+  }
   /// exp(-sigma_t distance), by Beer and Lambert.
   TransmittanceEstimate transmittance(const Ray&, float distance, const Sampler&) const {
     const Spectrum passes = glm::exp(-optical_depth(distance));

@@ -8,9 +8,12 @@ namespace candela {
 
 /// - transmittance: of the ray's first `distance` (scene units; may be infinite; the ray's direction is of
 ///   any length). The sampler is for media that estimate it.
+/// - estimate_optical_depth: of the first `distance` along a unit direction, or an unbiased estimate.
 /// - scatters, emits: whether it does so anywhere.
 template <class M>
-concept MediumModel = requires(const M& m, const Ray& ray, float distance, const Sampler& sampler) {
+concept MediumModel = requires(const M& m, const Ray& ray, vec3 v, float distance, const Sampler& sampler,
+                               TrackingRandom& random) {
+  { m.estimate_optical_depth(v, v, distance, random) } -> std::same_as<Spectrum>;
   { m.transmittance(ray, distance, sampler) } -> std::same_as<TransmittanceEstimate>;
   { m.scatters() } -> std::same_as<bool>;
   { m.emits() } -> std::same_as<bool>;

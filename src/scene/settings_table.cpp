@@ -36,9 +36,9 @@ std::span<const std::string_view> override_names() {
   }();
   return names;
 }
-constexpr std::string_view kViews[] = {"radiance", "albedo",   "normal",   "geometric_normal", "depth",
-                                       "uv",       "material", "bvh_cost", "depth_share",      "light_share",
-                                       "variance", "samples",  "nonfinite"};
+constexpr std::string_view kViews[] = {
+    "radiance", "albedo",   "normal",      "geometric_normal", "depth",    "optical_depth", "uv",
+    "material", "bvh_cost", "depth_share", "light_share",      "variance", "samples",       "nonfinite"};
 constexpr std::string_view kToneMaps[] = {"reinhard", "reinhard_simple", "filmic", "aces", "srgb"};
 constexpr std::string_view kFalseColors[] = {"auto", "off", "viridis", "magma"};
 

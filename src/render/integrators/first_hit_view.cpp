@@ -17,6 +17,22 @@ vec3 towards_viewer(vec3 normal, const SurfaceInteraction& surface, const Ray& r
   return 0.5f * (glm::dot(surface.geometric_normal, ray.direction) > 0 ? -normal : normal) + 0.5f;
 }
 
+/// The mean of the channels; of grids an estimate, by a place in each brick.
+float optical_depth_of(const MediumWay& way, const Sampler& sampler) {
+  float depth = 0;
+  for (const MediumSegment& segment : way.segments()) {
+    if (segment.medium == nullptr) continue;
+    TrackingRandom random(sampler, segment.origin, way.direction());
+    depth += average(visit_variant(
+        [&](const auto& medium) {
+          return medium.estimate_optical_depth(segment.origin, way.direction(), segment.end - segment.begin,
+                                               random);
+        },
+        *segment.medium));
+  }
+  return std::min(depth, kGreatestOpticalDepth);
+}
+
 } // namespace
 
 Spectrum bvh_cost_value(const RenderScene& scene, const Ray& ray, RayCounts& counts) {
@@ -31,9 +47,13 @@ Spectrum first_hit_value(const RenderScene& scene, Ray ray, const MediumStack& m
   const vec3 origin = ray.origin;
   sampler.set_bounce(1);
   MediaPassage passage{media, Spectrum(1)};
-  if (!intersect_through_opacity(scene, ray, sampler, met, hit, counts,
-                                 scene.has_priorities() ? &passage : nullptr, cone))
-    return vec3(0);
+  MediumWay way(true);
+  const bool asks_depth = view == View::optical_depth && scene.has_media();
+  if (asks_depth) passage.way = &way;
+  met = intersect_through_opacity(scene, ray, sampler, met, hit, counts,
+                                  asks_depth || scene.has_priorities() ? &passage : nullptr, cone);
+  if (asks_depth) return vec3(optical_depth_of(way, sampler));
+  if (!met) return vec3(0);
   SurfaceInteraction surface = scene.geometry().surface(ray, hit);
   const bool outside = glm::dot(surface.geometric_normal, ray.direction) < 0;
   const SurfaceMaterial& material = facing(scene.material(surface.material), outside);
@@ -52,6 +72,7 @@ Spectrum first_hit_value(const RenderScene& scene, Ray ray, const MediumStack& m
     return towards_viewer(shading_normal_at(material, scene, ray, hit, surface, cone), surface, ray);
   case View::geometric_normal: return towards_viewer(surface.geometric_normal, surface, ray);
   case View::depth: return vec3(glm::dot(surface.position - origin, forward));
+  case View::optical_depth: return vec3(0); // there are no media
   case View::uv: return vec3(uv() - glm::floor(uv()), 0);
   case View::material: return index_color(surface.material);
   default: return vec3(0);

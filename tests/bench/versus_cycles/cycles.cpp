@@ -80,7 +80,18 @@ std::optional<json> volume_json(const Material& m, const SceneDesc& scene) {
   if (!is_null(m)) return std::nullopt;
   const auto desc = std::ranges::find(scene.media, m.medium, &MediumDesc::name);
   if (desc == scene.media.end()) throw unknown("material", "null without a medium");
-  const auto medium = std::get<HomogeneousMedium>(make_medium(*desc));
+  const Medium made = make_medium(*desc);
+  if (const auto* smoke = std::get_if<GridMedium>(&made)) {
+    const auto* lobe = std::get_if<HenyeyGreenstein>(&smoke->phase);
+    if (lobe == nullptr || desc->name != "smoke")
+      throw unknown("medium", "a grid but that of smoke_density()");
+    return json{{"type", "smoke"},
+                {"sigma_a", smoke->density_sigma_t.x * (1 - smoke->albedo.x)},
+                {"sigma_s", smoke->density_sigma_t.x * smoke->albedo.x},
+                {"g", lobe->g},
+                {"emission", to_json(vec3(0))}};
+  }
+  const auto& medium = std::get<HomogeneousMedium>(made);
   const auto* phase = std::get_if<HenyeyGreenstein>(&medium.phase);
   if (phase == nullptr || medium.sigma_a != vec3(medium.sigma_a.x) ||
       medium.sigma_s != vec3(medium.sigma_s.x) || medium.emits())

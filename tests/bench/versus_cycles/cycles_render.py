@@ -36,20 +36,49 @@ def nodes_of(tree):
     return tree.nodes, tree.links
 
 
+def computed(nodes, links, operation, *inputs):
+    """The output of a node that computes it of numbers and of other nodes' outputs."""
+    node = nodes.new("ShaderNodeMath")
+    node.operation = operation
+    for socket, value in zip(node.inputs, inputs):
+        if isinstance(value, (int, float)):
+            socket.default_value = value
+        else:
+            links.new(value, socket)
+    return node.outputs[0]
+
+
+def smoke_density(nodes, links):
+    """As smoke_density() of scenes.h, in its axes: see turned()."""
+    def do(operation, *inputs):
+        return computed(nodes, links, operation, *inputs)
+    separate = nodes.new("ShaderNodeSeparateXYZ")
+    links.new(nodes.new("ShaderNodeNewGeometry").outputs["Position"], separate.inputs[0])
+    z, x, y = separate.outputs
+    square = do("ADD", do("ADD", do("MULTIPLY", x, x), do("MULTIPLY", y, y)), do("MULTIPLY", z, z))
+    sine = do("SINE", do("ADD", do("MULTIPLY", x, 9), do("MULTIPLY", y, 4)))
+    cosine = do("COSINE", do("SUBTRACT", do("MULTIPLY", z, 8), do("MULTIPLY", x, 3)))
+    wave = do("ADD", do("MULTIPLY", sine, cosine), 0.3)
+    return do("MULTIPLY", do("MAXIMUM", do("SUBTRACT", 1, square), 0), do("MAXIMUM", wave, 0))
+
+
 def make_material(m):
     material = bpy.data.materials.new("material")
     material.use_nodes = True
     nodes, links = nodes_of(material.node_tree)
     output = nodes.new("ShaderNodeOutputMaterial")
-    if m["type"] == "volume":
+    if m["type"] in ("volume", "smoke"):
         scatters, absorbs, total = (nodes.new("ShaderNode" + name) for name in ("VolumeScatter", "VolumeAbsorption", "AddShader"))
         scatters.inputs["Color"].default_value, absorbs.inputs["Color"].default_value = (1, 1, 1, 1), (0, 0, 0, 1)
-        scatters.inputs["Density"].default_value, absorbs.inputs["Density"].default_value = m["sigma_s"], m["sigma_a"]
+        for shader, density in ((scatters, m["sigma_s"]), (absorbs, m["sigma_a"])):
+            shader.inputs["Density"].default_value = density
+            if m["type"] == "smoke":
+                links.new(computed(nodes, links, "MULTIPLY", smoke_density(nodes, links), density), shader.inputs["Density"])
         scatters.inputs["Anisotropy"].default_value = m["g"]
         links.new(scatters.outputs[0], total.inputs[0])
         links.new(absorbs.outputs[0], total.inputs[1])
         links.new(total.outputs[0], output.inputs["Volume"])
-        material.cycles.homogeneous_volume = True
+        material.cycles.homogeneous_volume = m["type"] == "volume"
         return material
     if m["type"] == "ggx":
         shader = nodes.new("ShaderNodeBsdfGlossy")

@@ -188,10 +188,11 @@ int run(const Options& o) {
   run_scene("glass", [&] { return rough_glass(o.size); });
   run_scene("principled", [&] { return principled_balls(o.size); });
   run_scene("fog", [&] { return foggy_spot(o.size); });
+  run_scene("smoke", [&] { return smoke_ball(o.size); });
   run_scene("hair", [&] { return furry_ball(o.size, o.short_run ? 500 : 10000); });
   if (!any)
     throw usage_error("--scene " + o.scene, "there is no such scene",
-                      "cornell, ball, plates, glass, principled, fog or hair");
+                      "cornell, ball, plates, glass, principled, fog, smoke or hair");
   return agree ? 0 : 1;
 }
 

@@ -176,6 +176,21 @@ VersusScene principled_balls(int size) {
   return {"Principled", "metal and plastic in the Cornell box", std::move(s.document), 64};
 }
 
+namespace {
+
+/// [-half, half]^3.
+Mesh box_of(float half) {
+  Mesh box;
+  for (int corner = 0; corner < 8; ++corner)
+    box.positions.push_back(
+        half * vec3((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1));
+  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return box;
+}
+
+} // namespace
+
 VersusScene foggy_spot(int size) {
   test::SceneMaker s(size, size, 1);
   const int wall = s.diffuse(vec3(0.5f)), black = s.diffuse(vec3(0));
@@ -200,15 +215,43 @@ VersusScene foggy_spot(int size) {
   Material air;
   air.model = NullMaterial{};
   air.medium = fog.name;
-  Mesh box;
-  for (int corner = 0; corner < 8; ++corner)
-    box.positions.push_back(
-        0.999f * vec3((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1));
-  box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  s.mesh(std::move(box), s.material(air));
+  s.mesh(box_of(0.999f), s.material(air));
   s.camera({0.6f, 0.2f, 4}, {0, -0.1f, 0}, 38);
   return {"Fog", "a cone of light in a box of fog", std::move(s.document), 64, 0.02, 0.15};
+}
+
+float smoke_density(vec3 p) {
+  const float wave = 0.3f + std::sin(9 * p.x + 4 * p.y) * std::cos(8 * p.z - 3 * p.x);
+  return std::max(1 - glm::dot(p, p), 0.0f) * std::max(wave, 0.0f);
+}
+
+VersusScene smoke_ball(int size) {
+  test::SceneMaker s(size, size, 1);
+  s.rectangle({0, -1.05f, 0}, {0, 0, 3}, {3, 0, 0}, s.diffuse(vec3(0.5f)));
+  s.rectangle({0, 0, -2}, {3, 0, 0}, {0, 3, 0}, s.diffuse({0.6f, 0.3f, 0.2f}));
+  s.rectangle({0.8f, 2.2f, 1}, {0.4f, 0, 0}, {0, 0, 0.4f}, s.diffuse(vec3(0), vec3(40)));
+  auto grid = std::make_shared<VolumeGrid>();
+  constexpr int kCells = 128;
+  grid->cells = glm::ivec3(kCells);
+  grid->bounds.lo = vec3(-1), grid->bounds.hi = vec3(1);
+  for (int z = 0; z < kCells; ++z)
+    for (int y = 0; y < kCells; ++y)
+      for (int x = 0; x < kCells; ++x)
+        grid->density.push_back(smoke_density((vec3(x, y, z) + 0.5f) * (2.0f / kCells) - 1.0f));
+  MediumDesc smoke;
+  smoke.name = "smoke";
+  GridMediumModel model;
+  model.sigma_t = vec3(8), model.albedo = vec3(0.8f);
+  model.grid = std::move(grid);
+  smoke.model = model;
+  smoke.phase.model = HenyeyGreensteinPhase{0.3f};
+  s.document.scene.media.push_back(smoke);
+  Material air;
+  air.model = NullMaterial{};
+  air.medium = smoke.name;
+  s.mesh(box_of(1), s.material(air));
+  s.camera({0.6f, 0.5f, 5}, {0, -0.1f, 0}, 34);
+  return {"Smoke", "a ball of smoke, 128^3 cells", std::move(s.document), 64, 0.02, 0.15};
 }
 
 VersusScene furry_ball(int size, int strands) {

@@ -57,6 +57,13 @@ VersusScene principled_balls(int size);
 /// As a disc that faces the point, Cycles' point lamp is darker near by, see veach_plates().
 VersusScene foggy_spot(int size);
 
+/// Smoke in [-1, 1]^3, of the density
+///     max(0, 1 - |p|^2) x max(0, 0.3 + sin(9 x + 4 y) cos(8 z - 3 x)),
+/// which Cycles evaluates and marches through, and Candela has in a grid of 128^3 cells.
+float smoke_density(vec3 p);
+/// A ball of it (albedo 0.8, Henyey-Greenstein g = 0.3) over a floor, between a lamp of an area and a wall.
+VersusScene smoke_ball(int size);
+
 /// A ball with `strands` strands of brown hair (Chiang et al. 2016 in both) under the panorama with a sun.
 ///
 /// Cycles has curves of Catmull and Rom through points of our B-splines. Where light scatters often it is up

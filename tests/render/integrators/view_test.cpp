@@ -1,6 +1,8 @@
 // The views of a render.
 
 #include "render/film/film_view.h"
+#include "render/integrators/first_hit_view.h"
+#include "render/media_testing.h"
 #include "render/strategy_scenes.h"
 
 namespace {
@@ -37,6 +39,23 @@ TEST(ViewRender, NormalsFaceTheViewerAndDifferWhereShadingIsSmooth) {
   for (int y = 4; y < 12; ++y)
     for (int x = 4; x < 12; ++x) different += smooth.mean(x, y) != flat.mean(x, y);
   EXPECT_GT(different, 50);
+}
+
+/// Of a fog that fills the scene up to a wall, of a cloud before the wall, and of an endless one.
+TEST(ViewRender, OpticalDepthIsThatOfAllMediaBeforeTheFirstSurface) {
+  SceneMaker s(4, 4, 16);
+  s.document.scene.medium = add_medium(s, {0.1f, 0.2f, 0.3f}, vec3(0.5f));
+  s.rectangle({0, 0, 0}, {9, 0, 0}, {0, 9, 0}, s.diffuse(vec3(0.5f)));
+  s.camera({0, 0, 5}, {0, 0, 0}, 1e-3f);
+  EXPECT_NEAR(film_of(s.document, View::optical_depth).mean(1, 1).x, 1, 1e-4f);
+  VolumeGrid grid = random_grid({9, 9, 30}, 1);
+  for (std::size_t i = 0; i < grid.density.size(); ++i) grid.density[i] = i < grid.density.size() / 2 ? 2 : 0;
+  s.sphere({0, 0, 2}, 1, boundary(s, add_grid(s, std::move(grid), {0, 0, 2}, vec3(2), vec3(3), vec3(1))));
+  EXPECT_NEAR(film_of(s.document, View::optical_depth).mean(1, 1).x, 0.2f * 3 + 3 * 2 * 1, 0.2f);
+  s.document.scene.instances.clear();
+  EXPECT_EQ(film_of(s.document, View::optical_depth).mean(1, 1).x, kGreatestOpticalDepth);
+  s.document.scene.medium.clear();
+  EXPECT_EQ(film_of(s.document, View::optical_depth).mean(1, 1).x, 0);
 }
 
 TEST(ViewRender, UvRunsOverTheSurfaceAndMaterialsHaveTheirOwnColors) {
