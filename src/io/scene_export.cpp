@@ -3,9 +3,11 @@
 #include "io/candela/candela_json.h"
 #include "io/files/atomic_file.h"
 #include "io/files/file_bytes.h"
+#include "io/volumes/cvol_file.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -28,19 +30,35 @@ public:
     if (auto known = done_.find(source); known != done_.end()) return known->second;
     std::error_code failed;
     if (!fs::is_regular_file(source, failed)) return "";
-    fs::path name = fs::path(source).filename(), to = copies_ / name;
-    for (int i = 2; !taken_.insert(to).second; ++i)
-      to = copies_ / fmt::format("{}-{}{}", name.stem().string(), i, name.extension().string());
-    fs::create_directories(copies_, failed);
-    if (failed) throw output_error(copies_.string(), failed.message(), "choose another place");
-    write_file_atomically(to.string(), std::span<const std::uint8_t>(read_file_bytes(source, element)));
-    copied.push_back({source, to.string()});
-    return done_[source] = to.string();
+    const std::string to = place_for(fs::path(source).filename());
+    write_file_atomically(to, std::span<const std::uint8_t>(read_file_bytes(source, element)));
+    copied.push_back({source, to});
+    return done_[source] = to;
+  }
+
+  /// The path of a new file beside the copies, which write(path) writes.
+  template <class Write>
+  std::string written(std::string name, Write write) {
+    std::ranges::replace_if(
+        name, [](unsigned char c) { return c < ' ' || c == '/' || c == '\\' || c == ':'; }, '_');
+    const std::string to = place_for(name);
+    write(to);
+    return to;
   }
 
   std::vector<ExportedFile> copied;
 
 private:
+  std::string place_for(const fs::path& name) {
+    std::error_code failed;
+    fs::path to = copies_ / name;
+    for (int i = 2; !taken_.insert(to).second; ++i)
+      to = copies_ / fmt::format("{}-{}{}", name.stem().string(), i, name.extension().string());
+    fs::create_directories(copies_, failed);
+    if (failed) throw output_error(copies_.string(), failed.message(), "choose another place");
+    return to.string();
+  }
+
   std::string folder_;
   fs::path copies_;
   std::map<std::string, std::string> done_;
@@ -80,6 +98,17 @@ std::vector<ExportedFile> export_candela_json(Document document, const std::stri
     auto moved = std::make_shared<Panorama>(*panorama);
     moved->sources = std::move(sources);
     set_panorama(light, std::move(moved));
+  }
+  for (MediumDesc& medium : document.scene.media) {
+    const auto grid = medium_grid(medium);
+    if (!grid) continue;
+    std::string source = copier.reachable(grid->source, "volume");
+    if (source.empty())
+      source = copier.written(medium.name + ".cvol", [&](const std::string& to) { write_cvol(*grid, to); });
+    if (source == grid->source) continue;
+    auto moved = std::make_shared<VolumeGrid>(*grid);
+    moved->source = std::move(source);
+    set_medium_grid(medium, std::move(moved));
   }
   for (Instance& instance : document.scene.instances) {
     auto* curves = std::get_if<CurvesShape>(&instance.shape);

@@ -13,9 +13,9 @@ struct ExportedFile {
 };
 
 /// Writes the document as Candela JSON that does not depend on files outside its folder's tree: meshes and
-/// pictures inside are referred to, other pictures are copied to the folder "<stem>_files" next to it, and
-/// other meshes are written inline, bit-exactly. Returns the copied files. All files are written atomically;
-/// output_error if one cannot be written or the document has a document_problem.
+/// pictures and volumes inside are referred to, others are copied to the folder "<stem>_files" next to it,
+/// and other meshes are written inline, bit-exactly. Returns the copied files. All files are written
+/// atomically; output_error if one cannot be written or the document has a document_problem.
 std::vector<ExportedFile> export_candela_json(Document document, const std::string& path);
 
 } // namespace candela

@@ -108,6 +108,15 @@ std::span<const Field<PhaseDesc>> phase_fields(const PhaseDesc& phase) {
   return fields_of_phase_type(phase_type(phase));
 }
 
+bool takes_grid(const MediumDesc& medium) { return std::holds_alternative<GridMediumModel>(medium.model); }
+std::shared_ptr<const VolumeGrid> medium_grid(const MediumDesc& medium) {
+  const auto* model = std::get_if<GridMediumModel>(&medium.model);
+  return model != nullptr ? model->grid : nullptr;
+}
+void set_medium_grid(MediumDesc& medium, std::shared_ptr<const VolumeGrid> grid) {
+  std::get<GridMediumModel>(medium.model).grid = std::move(grid);
+}
+
 namespace {
 
 Spectrum extinction_of(const MediumDesc& desc, const HomogeneousMediumModel& model, const PhaseFunction&) {
@@ -164,6 +173,14 @@ Spectrum extinction_of(const MediumDesc& desc, const GridPlacement& placement, c
 Medium medium_of(const MediumDesc& desc, const GridMediumModel& model, const PhaseFunction& phase,
                  const MediumContext& context) {
   return grid_medium(desc, model, model.grid, phase, context);
+}
+
+Medium medium_of(const MediumDesc& desc, const ProceduralMediumModel& model, const PhaseFunction& phase,
+                 const MediumContext& context) {
+  const ProceduralGrid& made = model;
+  return grid_medium(desc, model,
+                     context.grids != nullptr ? context.grids->made(made) : make_procedural_grid(made), phase,
+                     context);
 }
 
 PhaseFunction phase_of_desc(const PhaseDesc& phase) {

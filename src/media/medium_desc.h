@@ -4,6 +4,7 @@
 #include "media/grid_cache.h"
 #include "media/measured_media.h"
 #include "media/medium.h"
+#include "media/procedural_grid.h"
 
 #include <memory>
 #include <string>
@@ -114,8 +115,46 @@ struct GridMediumModel : GridPlacement {
   static constexpr auto rows() { return grid_rows<GridMediumModel>(); }
 };
 
+/// Values that are computed.
+struct ProceduralMediumModel : GridPlacement, ProceduralGrid {
+  bool operator==(const ProceduralMediumModel&) const = default;
+
+  static constexpr std::string_view kName = "procedural";
+  static constexpr std::string_view kHelp = "a cloud, smoke or a flame that is computed";
+  static constexpr auto rows() {
+    using Model = ProceduralMediumModel;
+    using Row = MediumRow<Model>;
+    const std::array own = {
+        Row{{"pattern", FieldType::choice, 0, 0, "",
+             "A cumulus on a flat base, a ball of curling smoke, or a flame; y is up. Sides of a box that "
+             "does "
+             "not stretch them: 1 0.6 0.8, 1 1 1 and 0.5 1 0.5",
+             Invalidates::image, kPatterns},
+            &Model::pattern},
+        Row{{"seed", FieldType::integer, 0, 1e9, "", "Another number, another one of the same kind"},
+            &Model::seed},
+        Row{{"resolution", FieldType::integer, kLeastResolution, kMostResolution, "",
+             "Cells along the longest side: twice as many take eight times the time and memory"},
+            &Model::resolution},
+        Row{{"frequency", FieldType::real, 0.5, 64, "",
+             "Features of the largest size along the longest side"},
+            &Model::frequency},
+        Row{{"octaves", FieldType::integer, 1, 10, "", "Sizes of features, each half of the one before"},
+            &Model::octaves},
+        Row{{"coverage", FieldType::real, 0, 1, "", "How much of the box is filled"}, &Model::coverage},
+        Row{{"softness", FieldType::real, 0, 1, "", "Of the edges: from sharp ones to a gradual decrease"},
+            &Model::softness}};
+    constexpr auto kPlaced = grid_rows<Model>();
+    std::array<Row, own.size() + kPlaced.size()> all{};
+    std::copy(own.begin(), own.end(), all.begin());
+    std::copy(kPlaced.begin(), kPlaced.end(), all.begin() + own.size());
+    return all;
+  }
+};
+
 /// A new one is its struct, and its name here.
-using MediumDescModel = std::variant<HomogeneousMediumModel, MeasuredMediumModel, GridMediumModel>;
+using MediumDescModel =
+    std::variant<HomogeneousMediumModel, MeasuredMediumModel, GridMediumModel, ProceduralMediumModel>;
 
 /// A phase function and its values, as a part of a medium.
 struct PhaseDesc {
@@ -151,6 +190,12 @@ void change_type(PhaseDesc& phase, int type);
 /// addresses are those in a MediumDesc of this type.
 std::span<const Field<MediumDesc>> medium_fields(const MediumDesc& medium);
 std::span<const Field<PhaseDesc>> phase_fields(const PhaseDesc& phase);
+
+/// The values of a file, of a medium that may have them; null: none.
+bool takes_grid(const MediumDesc& medium);
+std::shared_ptr<const VolumeGrid> medium_grid(const MediumDesc& medium);
+/// Gives a medium that may have them the values of a file.
+void set_medium_grid(MediumDesc& medium, std::shared_ptr<const VolumeGrid> grid);
 
 /// What make_medium() needs beside the description.
 struct MediumContext {

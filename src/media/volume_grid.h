@@ -22,6 +22,7 @@ struct VolumeGrid {
   std::vector<vec3> color;        ///< of scattering, likewise, in [0, 1]; or empty
   std::string source;             ///< the file; empty if it was made by the program
 
+  bool operator==(const VolumeGrid&) const = default;
   std::uint64_t cell_count() const {
     return static_cast<std::uint64_t>(cells.x) * static_cast<std::uint64_t>(cells.y) *
            static_cast<std::uint64_t>(cells.z);

@@ -25,6 +25,13 @@ bool same_light(const LightDesc& a, const LightDesc& b) {
   return a == c;
 }
 
+bool same_medium(const MediumDesc& a, const MediumDesc& b) {
+  if (!same_value(medium_grid(a), medium_grid(b))) return false;
+  MediumDesc c = b;
+  if (takes_grid(c)) set_medium_grid(c, medium_grid(a));
+  return a == c;
+}
+
 bool same_shape(const Shape& a, const Shape& b) {
   const auto* mesh_a = std::get_if<std::shared_ptr<const Mesh>>(&a);
   const auto* mesh_b = std::get_if<std::shared_ptr<const Mesh>>(&b);
@@ -189,8 +196,9 @@ bool same_content(const Document& a, const Document& b) {
   const SceneDesc &s = a.scene, &t = b.scene;
   if (a.settings != b.settings || s.description != t.description || s.camera != t.camera ||
       s.bookmarks != t.bookmarks || s.materials != t.materials || s.light_groups != t.light_groups ||
-      s.media != t.media || s.medium != t.medium || !std::ranges::equal(s.lights, t.lights, same_light) ||
-      s.instances.size() != t.instances.size() || s.textures.size() != t.textures.size())
+      !std::ranges::equal(s.media, t.media, same_medium) || s.medium != t.medium ||
+      !std::ranges::equal(s.lights, t.lights, same_light) || s.instances.size() != t.instances.size() ||
+      s.textures.size() != t.textures.size())
     return false;
   for (std::size_t i = 0; i < s.textures.size(); ++i)
     if (!same_value(s.textures[i], t.textures[i])) return false;

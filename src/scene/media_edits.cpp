@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <map>
 
 namespace candela {
@@ -18,6 +19,24 @@ MediumDesc preset(const char* name, const MediumDescModel& model, const PhaseMod
   medium.phase.model = phase;
   medium.scale = scale;
   return medium;
+}
+
+/// Of a pattern of ProceduralGrid, about the origin.
+MediumDesc made_preset(const char* name, int pattern, vec3 size, const GridPlacement& placement,
+                       const PhaseModel& phase) {
+  ProceduralMediumModel model;
+  static_cast<GridPlacement&>(model) = placement;
+  model.pattern = pattern;
+  model.size = size;
+  return preset(name, model, phase);
+}
+
+MediumDesc fire_preset() {
+  MediumDesc fire =
+      made_preset("fire", 2, {1, 2, 1}, {.sigma_t = vec3(3), .albedo = vec3(0.1f), .temperature = 1900},
+                  IsotropicPhase{});
+  fire.emission = vec3(8);
+  return fire;
 }
 
 MeasuredMediumModel measured(std::string_view name) {
@@ -39,9 +58,39 @@ std::vector<MediumDesc> medium_presets() {
       preset("milk", measured("whole_milk"), HenyeyGreensteinPhase{0.7f}),
       preset("skin", measured("skin1"), IsotropicPhase{}),
       preset("marble", measured("marble"), IsotropicPhase{}),
+      made_preset("cloud", 0, {2, 1.2f, 1.6f}, {.sigma_t = vec3(40), .albedo = vec3(0.999f)},
+                  DropletsPhase{10}),
+      made_preset("ball of smoke", 1, vec3(2), {.sigma_t = vec3(12), .albedo = vec3(0.8f)},
+                  HenyeyGreensteinPhase{0.3f}),
+      fire_preset(),
       preset("wax", HomogeneousMediumModel{{1.5f, 1.6f, 1.7f}, {0.998f, 0.98f, 0.88f}},
              HenyeyGreensteinPhase{0.5f}),
   };
+}
+
+std::size_t add_grid_medium(SceneDesc& scene, std::shared_ptr<const VolumeGrid> grid, const Bounds3& within) {
+  const vec3 side = grid->bounds.diagonal();
+  const vec3 room = within.empty() ? vec3(2) : glm::max(within.diagonal(), vec3(1e-3f));
+  const float scale = min_component(room / side);
+  MediumDesc medium;
+  medium.name = std::filesystem::path(grid->source).stem().string();
+  if (medium.name.empty()) medium.name = "grid";
+  GridMediumModel model;
+  model.center = within.empty() ? vec3(0) : within.center();
+  model.size = glm::max(scale * side, vec3(1e-6f));
+  model.sigma_t = vec3(10 / max_component(model.size)); // thick where the density is 1
+  model.grid = std::move(grid);
+  medium.model = std::move(model);
+  const std::size_t index = add_medium(scene, std::move(medium));
+  scene.medium = scene.media[index].name;
+  return index;
+}
+
+void take_box_of_file(MediumDesc& medium) {
+  auto* model = std::get_if<GridMediumModel>(&medium.model);
+  if (model == nullptr || !model->grid) return;
+  model->center = model->grid->bounds.center();
+  model->size = glm::max(model->grid->bounds.diagonal(), vec3(1e-6f));
 }
 
 std::size_t add_medium(SceneDesc& scene, MediumDesc medium) {

@@ -8,6 +8,12 @@ namespace candela {
 /// Media to begin with, by what they are: "fog", "smoke", "milk" ….
 std::vector<MediumDesc> medium_presets();
 
+/// Adds a medium of the values of a file, which fills the scene, and its index. Its box has the proportions
+/// of the file's and is as large as fits into `within`; into [-1, 1]^3 where that is empty.
+std::size_t add_grid_medium(SceneDesc& scene, std::shared_ptr<const VolumeGrid> grid, const Bounds3& within);
+/// Puts the medium, if it has the values of a file, into the box that the file tells of.
+void take_box_of_file(MediumDesc& medium);
+
 /// Adds a medium, under a name of its own if there is one of that name. Its index.
 std::size_t add_medium(SceneDesc& scene, MediumDesc medium);
 /// Nothing refers to it any more.

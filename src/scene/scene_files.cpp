@@ -16,6 +16,8 @@ std::set<std::string> source_files(const SceneDesc& scene) {
     if (const auto panorama = light_panorama(light))
       files.insert(panorama->sources.begin(), panorama->sources.end());
   }
+  for (const MediumDesc& medium : scene.media)
+    if (const auto grid = medium_grid(medium)) files.insert(grid->source);
   files.erase("");
   return files;
 }

@@ -166,10 +166,10 @@ int run(int argc, char** argv) {
 
   SceneOptions convert_options;
   std::string converted;
-  auto* convert = app.add_subcommand("convert", "Write any scene as Candela JSON");
+  auto* convert = app.add_subcommand("convert", "Write any scene as Candela JSON, or a volume as .cvol");
   add_common_options(*convert, convert_options);
   convert->get_option("scene")->required();
-  convert->add_option("output", converted, "File to write, .json")->required();
+  convert->add_option("output", converted, "File to write, .json or .cvol")->required();
 
   bool json = false, markdown = false;
   auto* settings = app.add_subcommand("settings", "List every setting");

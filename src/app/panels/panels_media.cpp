@@ -9,6 +9,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace candela {
 
@@ -67,6 +68,36 @@ void add_from_presets(Ui& ui, ViewerState& state) {
     return;
   state.selected_medium =
       static_cast<int>(add_medium(state.document.scene, presets[static_cast<std::size_t>(chosen) - 1]));
+  state.edited = true;
+}
+
+std::string box_text(const Bounds3& box) {
+  return fmt::format("{:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g}", box.lo.x, box.lo.y, box.lo.z, box.hi.x,
+                     box.hi.y, box.hi.z);
+}
+
+/// The file of a medium that may have one.
+void volume_file(Ui& ui, ViewerState& state, MediumDesc& medium) {
+  const auto grid = medium_grid(medium);
+  ui.readout("file", grid ? std::filesystem::path(grid->source).filename().string() : "none",
+             "Densities, and perhaps temperatures and colours");
+  if (grid) {
+    ui.readout("cells", fmt::format("{} x {} x {}", grid->cells.x, grid->cells.y, grid->cells.z),
+               "Of the file's grid");
+    ui.readout("its box", box_text(grid->bounds), "Where the file says that its grid is");
+  }
+  const float button = 64 * ui.scale(), gap = ImGui::GetStyle().ItemSpacing.x;
+  const std::string before = state.volume_input;
+  const bool entered = ui.text("medium.file", "Path, or drop it here", state.volume_input, -button - gap);
+  if (state.volume_input != before) state.settle(ErrorCause::open);
+  ImGui::SameLine();
+  const bool pressed =
+      ui.button("medium.open", "Open", "Fills the box with this file (.vdb, .nvdb, .vol, .cvol)", button);
+  if ((entered || pressed) && !state.volume_input.empty()) state.open_paths = {state.volume_input};
+  if (!grid ||
+      !ui.button("medium.box", "Box of the file", "Sets centre and size to the file's own box", 2 * button))
+    return;
+  take_box_of_file(medium);
   state.edited = true;
 }
 
@@ -137,6 +168,7 @@ void media_panel(Ui& ui, ViewerState& state) {
   MediumDesc* home = home_of(state, medium, false);
   typed_fields(ui, state, "medium", "type", medium_type_field(), medium, home,
                [](const MediumDesc& m) { return medium_fields(m); });
+  if (takes_grid(medium)) volume_file(ui, state, medium);
   MediumDesc* phase_home = home_of(state, medium, true);
   typed_fields(ui, state, "phase", "phase", phase_type_field(), medium.phase,
                phase_home != nullptr ? &phase_home->phase : nullptr,

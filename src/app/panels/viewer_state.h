@@ -84,6 +84,7 @@ struct ViewerState {
   std::vector<std::filesystem::path> scenes; ///< offered in the Scenes panel
   std::string path_input;
   std::string panorama_input;
+  std::string volume_input; ///< typed path of a medium's file
   int selected_material = 0;
   int selected_texture = 0;
   int selected_medium = 0;
@@ -121,7 +122,7 @@ struct ViewerState {
   CompareState compare;
 
   // Requests to the Viewer.
-  std::vector<std::string> open_paths; ///< a scene, a panorama, or dropped files
+  std::vector<std::string> open_paths; ///< a scene, or a file for a part of it
   bool save_requested = false;
   bool reset_view_requested = false;
   bool refresh_scenes_requested = false;

@@ -3,6 +3,7 @@
 #include "io/files/text_file.h"
 #include "io/images/image_file.h"
 #include "io/scene_formats.h"
+#include "io/volumes/volume_reader.h"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@ Kind kind_of(const std::string& path) {
     return format->is_model ? Kind::model : Kind::scene;
   if (ending == kJobEnding) return Kind::scene;
   if (ending == ".mtl") return Kind::part;
-  return is_image_name(path) || ending == ".ies" ? Kind::picture : Kind::other;
+  return is_image_name(path) || ending == ".ies" || is_volume_name(path) ? Kind::picture : Kind::other;
 }
 
 std::string name_of(const std::string& path) { return fs::path(path).filename().string(); }

@@ -176,6 +176,8 @@ private:
   void light_with(std::shared_ptr<const Panorama> panorama, const FileStamps& files);
   /// Gives the profile to the selected light, or to the first that may have one.
   void shape_light_with(std::shared_ptr<const IesProfile> profile, const FileStamps& files);
+  /// Gives the values to the selected medium, if it takes them, or to a new one that fills the scene.
+  void fill_with(std::shared_ptr<const VolumeGrid> grid, const FileStamps& files);
   void install_scene(Document document, std::string path, std::vector<std::string> warnings,
                      const Bounds3& bounds, FileStamps files);
   void watch_files(FileStamps known = {});

@@ -16,6 +16,8 @@
 #include "io/images/panorama_reader.h"
 #include "io/images/texels_reader.h"
 #include "io/picture_state.h"
+#include "io/volumes/volume_reader.h"
+#include "scene/media_edits.h"
 #include "scene/scene_files.h"
 
 #include <fmt/format.h>
@@ -81,6 +83,20 @@ void Viewer::shape_light_with(std::shared_ptr<const IesProfile> profile, const F
   watch_files(files);
 }
 
+void Viewer::fill_with(std::shared_ptr<const VolumeGrid> grid, const FileStamps& files) {
+  SceneDesc& scene = state_.document.scene;
+  const std::string name = fs::path(grid->source).filename().string();
+  const auto selected = static_cast<std::size_t>(std::max(state_.selected_medium, 0));
+  if (selected < scene.media.size() && takes_grid(scene.media[selected]))
+    set_medium_grid(scene.media[selected], std::move(grid));
+  else
+    state_.selected_medium = static_cast<int>(add_grid_medium(scene, std::move(grid), state_.bounds));
+  notify(fmt::format("{} fills {}: see Media", name,
+                     scene.media[static_cast<std::size_t>(state_.selected_medium)].name));
+  state_.edited = true;
+  watch_files(files);
+}
+
 void Viewer::take_dropped(const std::vector<std::string>& paths) {
   if (paths.empty()) return;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -117,8 +133,9 @@ void Viewer::open_scene(const std::vector<std::string>& paths, bool reload) {
   state_.loading_path = paths.front();
   state_.loading_since = now_;
   state_.settle(ErrorCause::open);
-  if (!reload && !typing_ && !is_image_name(paths.front()) && lower_ending(paths.front()) != ".ies")
-    state_.path_input = paths.front(); // a light's file is shown in the light
+  const bool is_part = is_image_name(paths.front()) || lower_ending(paths.front()) == ".ies" ||
+                       is_volume_name(paths.front()); // shown in the light, or the medium
+  if (!reload && !typing_ && !is_part) state_.path_input = paths.front();
   const std::uint64_t request = ++open_requests_;
   state_.reading = true;
   ReadOptions options = options_.reading;
@@ -137,6 +154,13 @@ void Viewer::open_scene(const std::vector<std::string>& paths, bool reload) {
           if (request != open_requests_) return;
           state_.reading = false;
           shape_light_with(profile, stamps);
+        };
+      } else if (is_volume_name(path)) {
+        WarningList corrections(options.progress); // ignored, as for a panorama
+        return [this, request, grid = read_volume(path, corrections), stamps] {
+          if (request != open_requests_) return;
+          state_.reading = false;
+          fill_with(grid, stamps);
         };
       } else if (auto panorama = panorama_without_scene(path, options.progress)) {
         return [this, chosen, request, panorama, stamps] {

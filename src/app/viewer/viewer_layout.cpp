@@ -58,8 +58,9 @@ void Viewer::learn_letters(std::string_view text) {
 void Viewer::learn_letters_of_frame() {
   for (const std::string* text :
        {&state_.error, &state_.notice, &state_.loading_path, &state_.path_input, &state_.panorama_input,
-        &state_.save_path, &state_.replace_path, &state_.picture_of, &state_.compare.reference_path,
-        &state_.compare.reference, &state_.inspect.bookmark_name, &state_.document.scene.description})
+        &state_.volume_input, &state_.save_path, &state_.replace_path, &state_.picture_of,
+        &state_.compare.reference_path, &state_.compare.reference, &state_.inspect.bookmark_name,
+        &state_.document.scene.description})
     learn_letters(*text);
 }
 

@@ -4,6 +4,7 @@
 #include "io/ies/ies_reader.h"
 #include "io/images/panorama_reader.h"
 #include "io/images/texels_reader.h"
+#include "io/volumes/volume_reader.h"
 #include "scene/scene_files.h"
 
 #include <fmt/format.h>
@@ -68,6 +69,17 @@ void Viewer::read_dropped_again(const std::set<std::string>& changed) {
         [this, old](const std::shared_ptr<const IesProfile>& fresh) {
           for (LightDesc& light : state_.document.scene.lights)
             if (light_profile(light) == old) set_profile(light, fresh), state_.edited = true;
+        });
+  std::set<std::shared_ptr<const VolumeGrid>> grids;
+  for (const MediumDesc& medium : scene.media)
+    if (const auto grid = medium_grid(medium); grid && changed.contains(grid->source)) grids.insert(grid);
+  for (const auto& old : grids)
+    read_again(
+        fs::path(old->source).filename().string(),
+        [old](WarningList& corrections) { return read_volume(old->source, corrections); },
+        [this, old](const std::shared_ptr<const VolumeGrid>& fresh) {
+          for (MediumDesc& medium : state_.document.scene.media)
+            if (medium_grid(medium) == old) set_medium_grid(medium, fresh), state_.edited = true;
         });
   for (const auto& old : scene.textures) {
     const ImageTexture* image = old->image();

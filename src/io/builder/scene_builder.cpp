@@ -5,6 +5,7 @@
 #include "io/ies/ies_reader.h"
 #include "io/images/panorama_reader.h"
 #include "io/images/texels_reader.h"
+#include "io/volumes/volume_reader.h"
 
 #include <fmt/format.h>
 
@@ -106,6 +107,12 @@ std::shared_ptr<const IesProfile> SceneBuilder::profile(const FoundFile& file) {
   auto& profile = profiles_[file.canonical];
   if (!profile) profile = read_ies(file.canonical, warnings_);
   return profile;
+}
+
+std::shared_ptr<const VolumeGrid> SceneBuilder::volume(const FoundFile& file) {
+  auto& volume = volumes_[file.canonical];
+  if (!volume) volume = read_volume(file.canonical, warnings_);
+  return volume;
 }
 
 std::string SceneBuilder::unused_material_name(const std::string& wish) const {

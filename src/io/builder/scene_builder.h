@@ -57,6 +57,9 @@ public:
   /// The photometric file; the same file is one.
   std::shared_ptr<const IesProfile> profile(const FoundFile& file);
 
+  /// The file of densities (io/volumes); the same file is one.
+  std::shared_ptr<const VolumeGrid> volume(const FoundFile& file);
+
   int add_material(Material material);
   /// Sets a row of a material that names another one.
   void set_material_part(int material, const MaterialField& row, int part);
@@ -88,6 +91,7 @@ private:
   std::map<std::string, int> textures_;                           ///< by canonical path
   std::map<std::vector<std::string>, std::shared_ptr<const Panorama>> panoramas_; ///< by canonical paths
   std::map<std::string, std::shared_ptr<const IesProfile>> profiles_;             ///< by canonical path
+  std::map<std::string, std::shared_ptr<const VolumeGrid>> volumes_;              ///< by canonical path
   std::unordered_set<std::string> material_names_;
   std::unordered_set<std::string> expected_;        ///< as named in the scene
   std::unordered_set<std::string> broken_textures_; ///< canonical paths

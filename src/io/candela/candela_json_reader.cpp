@@ -83,7 +83,7 @@ private:
   void read_media(JsonValue array) {
     std::vector<MediumDesc>& media = document_.scene.media;
     source_.each_object(array, "media", [&](JsonValue object, const std::string& element) {
-      media.push_back(read_json_medium(object, element));
+      media.push_back(read_json_medium(object, element, builder_, source_.folder));
       if (const std::string problem = media_problem(media); !problem.empty())
         throw input_error(object.where(), element, problem.substr(0, problem.find("; ")),
                           problem.substr(problem.find("; ") + 2));

@@ -47,8 +47,9 @@ public:
     natural_textures_ = textures_are_natural();
     if (!natural_textures_) add("textures", "[", textures(), "]");
     std::vector<std::string> media;
+    const auto named = [this](const std::string& source) { return picture_path(source); };
     for (const MediumDesc& medium : scene_.media)
-      media.push_back(fmt::format("{{{}}}", joined(json_medium_members(medium), ", ")));
+      media.push_back(fmt::format("{{{}}}", joined(json_medium_members(medium, named), ", ")));
     add("media", "[", media, "]");
     if (!scene_.medium.empty()) parts.push_back(fmt::format("  \"medium\": {}", json_quoted(scene_.medium)));
     add("materials", "[", materials(), "]");

@@ -111,6 +111,8 @@ void VdbTree::unpack(int count) {
   const int scalars = count * type_.components;
   const std::size_t size = type_.is_half ? 2 : type_.is_double ? 8 : 4;
   raw_.resize(static_cast<std::size_t>(scalars) * size);
+  packed_.resize(static_cast<std::size_t>(scalars));
+  if (scalars == 0 && type_.is_half) return; // not even their size is stored
   if ((packing_.flags & (VdbPacking::kBlosc | VdbPacking::kZip)) != 0) {
     const auto length = bytes_.value<std::int64_t>();
     if (length > 0) {
@@ -127,7 +129,6 @@ void VdbTree::unpack(int count) {
   } else {
     std::ranges::copy(bytes_.take(raw_.size()), raw_.begin());
   }
-  packed_.resize(static_cast<std::size_t>(scalars));
   for (std::size_t i = 0; i < packed_.size(); ++i) {
     const std::uint8_t* from = raw_.data() + i * size;
     if (type_.is_half) {

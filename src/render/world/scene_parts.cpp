@@ -45,7 +45,7 @@ SceneMaterials::SceneMaterials(const Document& document, const SceneMaterials* p
       textures_(document.scene.textures), override_(document.settings.override_brdf),
       source_media_(has_factors(document) ? grouped_media(document.scene) : document.scene.media),
       source_world_(document.scene.medium), source_estimator_(document.settings.path.transmittance),
-      grids_(previous != nullptr ? &previous->grids_ : nullptr) {
+      grids_(previous != nullptr ? &previous->grids_ : nullptr, progress) {
   add_materials(document, [&](const ImageTexture& image, ColorSpace space) {
     auto fits = [&](const auto& pyramid) {
       return pyramid->texels() == image.texels && pyramid->color_space() == space;
