@@ -64,5 +64,27 @@ TEST(SceneExport, CopiesNothingForAnInvalidDocument) {
   EXPECT_FALSE(std::filesystem::exists(files / "out_files"));
 }
 
+TEST(SceneExport, CopiesVolumesAndWritesThoseWithoutAFile) {
+  SceneFiles files;
+  files.write("in/smoke.cvol",
+              "candela volume 1\ncells 1 1 1\nchannels density\ndata\n" + std::string(4, '\0'));
+  files.write("in/s.json",
+              R"({"candela": 1, "media": [{"name": "a/b", "type": "grid", "file": "smoke.cvol"}]})");
+  Document document = files.read("in/s.json").document;
+  std::filesystem::create_directory(files / "out");
+  const auto copied = export_candela_json(document, files / "out/scene.json");
+  ASSERT_EQ(copied.size(), 1u);
+  EXPECT_EQ(files.without_folder(copied[0].to), "out/scene_files/smoke.cvol");
+  std::filesystem::remove_all(files / "in");
+  const auto same_values = [&](const Document& again) {
+    return medium_grid(again.scene.media.at(0))->density == medium_grid(document.scene.media[0])->density;
+  };
+  EXPECT_TRUE(same_values(files.read("out/scene.json").document));
+  // Its file is gone.
+  EXPECT_TRUE(export_candela_json(document, files / "out/other.json").empty());
+  EXPECT_TRUE(same_values(files.read("out/other.json").document));
+  EXPECT_TRUE(std::filesystem::exists(files / "out/other_files/a_b.cvol"));
+}
+
 } // namespace
 } // namespace candela

@@ -80,5 +80,25 @@ TEST(MediaEdits, LightEntersWhatTransmits) {
   EXPECT_FALSE(lets_light_in(scene, blend));
 }
 
+TEST(MediaEdits, AFilesGridFillsTheScene) {
+  SceneDesc scene;
+  auto grid = std::make_shared<VolumeGrid>();
+  grid->cells = {1, 2, 1};
+  grid->bounds = {vec3(0), {1, 2, 1}};
+  grid->density = {1, 1};
+  grid->source = "/there/plume.vdb";
+  EXPECT_EQ(add_grid_medium(scene, grid, {vec3(-2), {2, 4, 6}}), 0u);
+  EXPECT_EQ(scene.medium, "plume");
+  const auto& placed = std::get<GridMediumModel>(scene.media[0].model);
+  EXPECT_EQ(placed.center, vec3(0, 1, 2));
+  EXPECT_EQ(placed.size, vec3(3, 6, 3)) << "as large as fits, in the file's proportions";
+  EXPECT_EQ(media_problem(scene.media), "");
+  take_box_of_file(scene.media[0]);
+  EXPECT_EQ(placed.center, vec3(0.5f, 1, 0.5f));
+  EXPECT_EQ(placed.size, vec3(1, 2, 1));
+  EXPECT_EQ(add_grid_medium(scene, grid, {}), 1u);
+  EXPECT_EQ(scene.media[1].name, "plume 2");
+}
+
 } // namespace
 } // namespace candela::test

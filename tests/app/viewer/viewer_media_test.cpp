@@ -66,4 +66,60 @@ TEST(ViewerMediaUi, TheSelectedObjectIsFilled) {
   hand.wait_for_picture();
 }
 
+TEST(ViewerMediaUi, ADroppedVolumeFillsTheSceneThenTheSelectedMedium) {
+  ScratchFolder folder;
+  const auto volume = [](float density) {
+    return "candela volume 1\ncells 1 1 1\nbounds 0 0 0 1 2 3\nchannels density\ndata\n" +
+           std::string(reinterpret_cast<const char*>(&density), sizeof(density));
+  };
+  write_text(folder / "smoke.cvol", volume(1));
+  write_text(folder / "other.cvol", volume(2));
+  write_text(folder / "bad.cvol", "candela volume 1\n");
+  ViewerHarness hand;
+  hand.wait_for_picture();
+  hand.send(FilesDropped{{folder / "smoke.cvol"}});
+  hand.wait_until("it is there", [&] { return !hand.document().scene.media.empty(); });
+  const auto medium = [&]() -> const MediumDesc& { return hand.document().scene.media.at(0); };
+  EXPECT_EQ(medium().name, "smoke");
+  EXPECT_EQ(hand.document().scene.medium, "smoke");
+  ASSERT_TRUE(medium_grid(medium()));
+  EXPECT_EQ(medium_grid(medium())->density.at(0), 1);
+  hand.unfold("panel.media", "media.add");
+  hand.reveal("medium.box");
+  hand.frame(3);
+  hand.screenshot("volume_medium");
+  hand.click("medium.box");
+  hand.frame(2);
+  EXPECT_EQ(std::get<GridMediumModel>(medium().model).size, vec3(1, 2, 3));
+  EXPECT_EQ(std::get<GridMediumModel>(medium().model).center, vec3(0.5f, 1, 1.5f));
+  hand.send(FilesDropped{{folder / "other.cvol"}});
+  hand.wait_until("the other", [&] { return medium_grid(medium())->density.at(0) == 2; });
+  EXPECT_EQ(hand.document().scene.media.size(), 1u);
+  EXPECT_EQ(std::get<GridMediumModel>(medium().model).size, vec3(1, 2, 3)) << "its place stays";
+  hand.send(FilesDropped{{folder / "bad.cvol"}});
+  hand.wait_until("the error", [&] { return !hand.state().error.empty(); });
+  EXPECT_NE(hand.state().error.find("bad.cvol:1: header: "), std::string::npos) << hand.state().error;
+  // A file that changes is read again.
+  write_text(folder / "other.cvol", volume(3) + "");
+  hand.wait_until("it is read again", [&] { return medium_grid(medium())->density.at(0) == 3; });
+  hand.wait_for_picture();
+}
+
+TEST(ViewerMediaUi, ACloudIsAdded) {
+  ViewerHarness hand;
+  hand.wait_for_picture();
+  hand.unfold("panel.media", "media.add");
+  hand.choose("media.add", "cloud");
+  hand.choose("scene.medium", "cloud");
+  hand.choose("medium.pattern", "smoke");
+  hand.type_into("medium.resolution", "32");
+  hand.type_into("medium.seed", "5");
+  const auto& model = std::get<ProceduralMediumModel>(hand.document().scene.media.at(0).model);
+  EXPECT_EQ(model.seed, 5);
+  EXPECT_EQ(model.resolution, 32);
+  EXPECT_EQ(model.pattern, 1);
+  hand.wait_for_picture();
+  EXPECT_EQ(hand.state().error, "");
+}
+
 } // namespace

@@ -75,5 +75,60 @@ TEST(JsonMedia, AnEditOfAMediumIsAnEdit) {
   EXPECT_EQ(document_problem(b).substr(0, 20), "materials[0].medium:");
 }
 
+std::string tiny_volume() {
+  const float values[] = {0, 1, 0.5f, 2};
+  return "candela volume 1\ncells 2 2 1\nbounds 0 0 0 2 4 1\nchannels density\ndata\n" +
+         std::string(reinterpret_cast<const char*>(values), sizeof(values));
+}
+
+TEST(JsonMedia, AGridIsAFileInTheScenesFolder) {
+  SceneFiles files;
+  files.write("fx/smoke.cvol", tiny_volume());
+  files.write("s.json", R"({"candela": 1, "media": [
+      {"name": "smoke", "type": "grid", "file": "fx/smoke.cvol", "sigma_t": 3, "center": [1, 2, 3], "size": [2, 4, 1]},
+      {"name": "again", "type": "grid", "file": "fx/smoke.cvol"}]})");
+  const LoadedScene loaded = files.read("s.json");
+  EXPECT_EQ(files.warnings(loaded), std::vector<std::string>{});
+  const auto& media = loaded.document.scene.media;
+  const auto grid = medium_grid(media.at(0));
+  ASSERT_TRUE(grid);
+  EXPECT_EQ(grid->density, (std::vector<float>{0, 1, 0.5f, 2}));
+  EXPECT_EQ(medium_grid(media.at(1)), grid) << "a file is read once";
+  EXPECT_TRUE(loaded.files.contains(grid->source));
+  write_candela_json(loaded.document, files / "out.json");
+  EXPECT_NE(test::read_text(files / "out.json").find("\"file\": \"fx/smoke.cvol\""), std::string::npos);
+  EXPECT_TRUE(same_content(loaded.document, files.read("out.json").document));
+  Document other = loaded.document;
+  auto changed = std::make_shared<VolumeGrid>(*grid);
+  changed->density[0] = 1;
+  set_medium_grid(other.scene.media[0], changed);
+  EXPECT_FALSE(same_content(loaded.document, other));
+}
+
+TEST(JsonMedia, AGridsFileIsCheckedAsAllOthers) {
+  SceneFiles files;
+  files.write("bad.cvol", "candela volume 1\ncells 2 2 1\n");
+  files.write("in/x.json",
+              R"({"candela": 1, "media": [{"name": "a", "type": "grid", "file": "../bad.cvol"}]})");
+  EXPECT_THROW(files.read("in/x.json"), Error);
+  const std::pair<const char*, const char*> kCases[] = {
+      {R"("type": "grid", "file": "none.vdb")", "media[0].file"},
+      {R"("type": "grid", "file": "bad.cvol")", "bad.cvol:2: header: there is no line 'data'"},
+      {R"("type": "grid", "file": 3)", "media[0].file"},
+      {R"("file": "bad.cvol")", "there is no key 'file'"},
+      {R"("type": "procedural", "pattern": "rain")", "media[0].pattern"},
+      {R"("type": "procedural", "resolution": 5000)", "media[0].resolution"},
+  };
+  for (const auto& [members, said] : kCases) {
+    files.write("s.json", std::string(R"({"candela": 1, "media": [{"name": "a", )") + members + "}]}");
+    try {
+      files.read("s.json");
+      ADD_FAILURE() << members;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+    }
+  }
+}
+
 } // namespace
 } // namespace candela
