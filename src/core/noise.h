@@ -51,10 +51,11 @@ inline NoiseSlope gradient_noise_slope(vec3 p, std::uint32_t seed) {
                                                        {0, -1, -1}}};
   const vec3 w = f * f * f * (f * (f * 6.0f - 15.0f) + 10.0f);
   const vec3 dw = 30.0f * f * f * (f * (f - 2.0f) + 1.0f);
+  const std::uint32_t key = hash32(seed); // else the next seed would be the same pattern, moved
   NoiseSlope sum;
   vec3 differences(0); // of the values between faces
   for (std::uint32_t k = 0; k < 2; ++k) {
-    const std::uint32_t of_z = hash32(z + k + seed);
+    const std::uint32_t of_z = hash32(z + k + key);
     for (std::uint32_t j = 0; j < 2; ++j) {
       const std::uint32_t of_y = hash32(y + j + of_z);
       for (std::uint32_t i = 0; i < 2; ++i) {
@@ -106,11 +107,12 @@ inline float nearest_point_distance(vec3 p, std::uint32_t seed) {
   const vec3 corner = glm::floor(p), f = p - corner;
   const auto cx = static_cast<std::int32_t>(corner.x), cy = static_cast<std::int32_t>(corner.y),
              cz = static_cast<std::int32_t>(corner.z);
+  const std::uint32_t key = hash32(seed);
   float nearest = 3;
   const auto visit = [&](int i, int j, int k) {
-    const std::uint32_t h = hash32(
-        static_cast<std::uint32_t>(cx + i) +
-        hash32(static_cast<std::uint32_t>(cy + j) + hash32(static_cast<std::uint32_t>(cz + k) + seed)));
+    const std::uint32_t h =
+        hash32(static_cast<std::uint32_t>(cx + i) +
+               hash32(static_cast<std::uint32_t>(cy + j) + hash32(static_cast<std::uint32_t>(cz + k) + key)));
     const std::uint32_t h2 = hash32(h);
     const vec3 d =
         vec3(i, j, k) + vec3(to_unit_float(h), to_unit_float(h2), to_unit_float(h2 * 0x9e3779b9u + h)) - f;

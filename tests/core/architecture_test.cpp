@@ -21,7 +21,7 @@ namespace {
 const std::map<std::string, std::vector<std::string>, std::less<>>& rooms() {
   static const std::map<std::string, std::vector<std::string>, std::less<>> table = {
       {"accel", {"simd", "primitives"}},
-      {"io", {"files", "images", "ies", "curves", "obj", "builder", "candela", "cs123"}},
+      {"io", {"files", "images", "ies", "curves", "volumes", "obj", "builder", "candela", "cs123"}},
       {"render", {"lights", "world", "camera", "integrators", "film", "denoise"}},
       {"app",
        {"platform", "console", "figures", "ui", "tools", "compare", "lab", "panels", "viewer", "window",

@@ -54,8 +54,9 @@ TEST_P(ProceduralGrids, AreValidAndFillTheirBoxInPart) {
     for (int y = 0; y < grid->cells.y; ++y)
       for (int x = 0; x < grid->cells.x; ++x, ++cell) {
         const glm::ivec3 c(x, y, z);
-        if (glm::any(glm::equal(c, glm::ivec3(0))) || glm::any(glm::equal(c, grid->cells - 1)))
+        if (glm::any(glm::equal(c, glm::ivec3(0))) || glm::any(glm::equal(c, grid->cells - 1))) {
           ASSERT_LT(grid->density[cell], 0.2f) << x << ' ' << y << ' ' << z;
+        }
       }
 }
 

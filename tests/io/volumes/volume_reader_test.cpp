@@ -192,8 +192,9 @@ void expect_known(const VolumeGrid& grid, glm::ivec3 first, bool half, bool tile
         const float density = in_tile ? 0.75f : known_density(p);
         ASSERT_NEAR(grid.density[cell], density, half ? 1e-3f * density : 0)
             << p.x << ' ' << p.y << ' ' << p.z;
-        if (!grid.temperature.empty())
+        if (!grid.temperature.empty()) {
           ASSERT_NEAR(grid.temperature[cell], known_temperature(p) / hottest, 1e-6f);
+        }
       }
 }
 
