@@ -25,6 +25,9 @@ constexpr LessonInfo kLessons[] = {
     {"brdf", "Lobes of a material",
      "Turn the view towards grazing: the lobe stretches, and the albedo must not exceed 1. Directions by "
      "the material follow the lobe, others waste samples on directions that reflect little."},
+    {"medium", "A slab of matter",
+     "With an albedo of 1 and a deep slab nearly all light comes back, after many collisions; forward "
+     "scattering lets it through. Free flights are exponential: most are shorter than the mean."},
     {"lens", "Lenses of many elements",
      "Open the stop: the film's corners darken faster than cos^4, and the spot of a point in focus, which a "
      "thin lens draws sharp, keeps the size of the aberrations. Stop down: the two agree."},

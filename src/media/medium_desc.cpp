@@ -183,20 +183,20 @@ Medium medium_of(const MediumDesc& desc, const ProceduralMediumModel& model, con
                      context);
 }
 
-PhaseFunction phase_of_desc(const PhaseDesc& phase) {
+} // namespace
+
+PhaseFunction make_phase(const PhaseDesc& phase) {
   return std::visit([](const auto& model) -> PhaseFunction { return model.closure(); }, phase.model);
 }
 
-} // namespace
-
 Medium make_medium(const MediumDesc& medium, const MediumContext& context) {
-  const PhaseFunction phase = phase_of_desc(medium.phase);
+  const PhaseFunction phase = make_phase(medium.phase);
   return std::visit([&](const auto& model) { return medium_of(medium, model, phase, context); },
                     medium.model);
 }
 
 Spectrum medium_extinction(const MediumDesc& medium) {
-  const PhaseFunction phase = phase_of_desc(medium.phase);
+  const PhaseFunction phase = make_phase(medium.phase);
   return std::visit([&](const auto& model) { return extinction_of(medium, model, phase); }, medium.model);
 }
 

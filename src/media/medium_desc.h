@@ -197,6 +197,7 @@ std::shared_ptr<const VolumeGrid> medium_grid(const MediumDesc& medium);
 /// Gives a medium that may have them the values of a file.
 void set_medium_grid(MediumDesc& medium, std::shared_ptr<const VolumeGrid> grid);
 
+PhaseFunction make_phase(const PhaseDesc& phase);
 /// What make_medium() needs beside the description.
 struct MediumContext {
   Spectrum absorption{0}; ///< absorption coefficient that is added, 1/scene unit

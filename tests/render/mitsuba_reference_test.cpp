@@ -116,6 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
                     ReferenceCase{"mesh_attributes", "test_mesh_attributes_1_face", "direct"},
                     ReferenceCase{"mesh_attributes", "test_mesh_attributes_3_face", "direct"},
                     ReferenceCase{"mesh_attributes", "test_mesh_attributes_3_vertex", "direct"},
+                    ReferenceCase{"participating_media", "test_hetero_sigmat", "volpath"},
                     ReferenceCase{"participating_media", "test_homo_null_envmap", "volpath"},
                     ReferenceCase{"participating_media", "test_homo_roughdielectric_spot", "volpath"},
                     ReferenceCase{"projector", "test_projector_constant", "direct", ivec2(0), ivec2(0), 1},

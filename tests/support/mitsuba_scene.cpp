@@ -4,6 +4,7 @@
 #include "io/images/panorama_reader.h"
 #include "io/images/texels_reader.h"
 #include "io/obj/obj_reader.h"
+#include "io/volumes/volume_reader.h"
 #include "support/binary_ply.h"
 #include "support/mitsuba_values.h"
 
@@ -78,12 +79,30 @@ private:
 
   void medium(const Node& node) {
     const Node phase = node.child("phase");
-    if (std::string_view(node.attribute("type").value()) != "homogeneous" ||
+    const std::string_view type = node.attribute("type").value();
+    if ((type != "homogeneous" && type != "heterogeneous") ||
         std::string_view(phase.attribute("type").value()) != "isotropic")
       throw unknown("medium", node);
     MediumDesc desc;
     desc.name = node.attribute("id").value();
-    desc.model = HomogeneousMediumModel{color_of(child(node, "sigma_t")), color_of(child(node, "albedo"))};
+    const vec3 albedo = color_of(child(node, "albedo"));
+    if (type == "heterogeneous") {
+      // Its box is the unit cube, scaled and moved.
+      const Node volume = child(node, "sigma_t"), place = child(volume, "to_world");
+      auto by_axis = [&](const char* element) {
+        const Node n = place.child(element);
+        return vec3(n.attribute("x").as_float(), n.attribute("y").as_float(), n.attribute("z").as_float());
+      };
+      WarningList warnings;
+      GridMediumModel grid;
+      grid.grid = read_volume(file(volume), warnings);
+      grid.size = by_axis("scale");
+      grid.center = by_axis("translate") + 0.5f * grid.size;
+      grid.sigma_t = vec3(1), grid.albedo = albedo;
+      desc.model = grid;
+    } else {
+      desc.model = HomogeneousMediumModel{color_of(child(node, "sigma_t")), albedo};
+    }
     desc.scale = number(node, "scale", 1);
     document_.scene.media.push_back(desc);
   }

@@ -174,6 +174,12 @@ struct LabCommand::Options {
     print(report(lesson, material));
   }
 
+  void medium() const {
+    MediumLesson lesson(read<MediumLessonOptions>("medium", medium_lesson_fields()), source("medium"),
+                        static_cast<std::uint64_t>(run_options("medium", {200000, 1}).samples));
+    run_to_end(lesson);
+    print(report(lesson));
+  }
   void lens() const {
     LensLesson lesson(read<LensOptions>("lens", lens_fields()), source("lens"),
                       static_cast<std::uint64_t>(run_options("lens", {100000, 1}).samples));
@@ -224,6 +230,8 @@ LabCommand::LabCommand(CLI::App& program) : options_(std::make_unique<Options>()
     }
     if (info.name == "warps")
       for (const auto& row : warp_fields()) add(row, option_name(row.key));
+    if (info.name == "medium")
+      for (const auto& row : medium_lesson_fields()) add(row, option_name(row.key));
     if (info.name == "lens")
       for (const auto& row : lens_fields()) add(row, option_name(row.key));
     if (info.name == "brdf") {
@@ -258,6 +266,8 @@ int LabCommand::run() const {
     o.warps();
   else if (o.asks_for("brdf"))
     o.brdf();
+  else if (o.asks_for("medium"))
+    o.medium();
   else if (o.asks_for("lens"))
     o.lens();
   else

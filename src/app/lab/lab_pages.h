@@ -25,6 +25,7 @@ std::unique_ptr<LabPage> make_integral_page();
 std::unique_ptr<LabPage> make_points_page();
 std::unique_ptr<LabPage> make_warps_page();
 std::unique_ptr<LabPage> make_brdf_page();
+std::unique_ptr<LabPage> make_medium_page();
 std::unique_ptr<LabPage> make_lens_page();
 
 /// A row of a field table as a widget named "lab." and the key, labelled by the key's last part unless

@@ -123,6 +123,25 @@ void histogram(Writer& out, const Histogram& h) {
                            {"outside", h.outside}};
 }
 
+/// The curves of plots, whose points have the same x.
+void plot_tables(Writer& out, const std::vector<std::pair<std::string_view, Plot>>& plots) {
+  for (const auto& [key, plot] : plots) {
+    auto& curves = out.json(key);
+    out.text(fmt::format("\n{}\n{:>14}", plot.title, plot.x.label));
+    for (const PlotSeries& series : plot.series) out.text(fmt::format(" {:>14}", series.label));
+    out.text("\n");
+    const std::size_t count = plot.series.front().points.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      out.text(fmt::format("{:>14.4g}", plot.series.front().points[i].x));
+      for (const PlotSeries& series : plot.series) {
+        out.text(fmt::format(" {:>14.5g}", series.points[i].y));
+        curves[series.label].push_back({series.points[i].x, series.points[i].y});
+      }
+      out.text("\n");
+    }
+  }
+}
+
 void coordinates(ordered_json& json, const PointsOptions& options) {
   json["x"] = to_string(options.x);
   json["y"] = to_string(options.y);
@@ -195,6 +214,36 @@ LabReport report(const BrdfLesson& lesson, const MaterialChoice& material) {
   return out.done();
 }
 
+LabReport report(const MediumLesson& lesson) {
+  Writer out("medium");
+  for (const auto& row : medium_lesson_fields())
+    if (medium_lesson_uses(lesson.options(), row.key)) out.field(row, field_text(row, lesson.options()));
+  out.source(lesson.source());
+  out.line("samples", fmt::format("{}", lesson.done()));
+  const SlabShares counted = lesson.counted(), &theory = lesson.theory();
+  const bool exact = lesson.theory_is_exact();
+  auto share = [&](const char* name, double found, double known, bool is_exact) {
+    out.line(name, fmt::format("{:.6f} +- {:.1g}, theory {:.6f}{}", found, lesson.error(found), known,
+                               is_exact ? "" : " (of a similar isotropic slab)"));
+    out.json(name) = {
+        {"counted", found}, {"standard_error", lesson.error(found)}, {"theory", known}, {"exact", is_exact}};
+  };
+  share("reflected", counted.reflected, theory.reflected, exact);
+  share("transmitted", counted.transmitted, theory.transmitted, exact);
+  share("direct", counted.direct, theory.direct, true);
+  share("absorbed", counted.absorbed, theory.absorbed, exact);
+  const double cosine = static_cast<double>(mean_cosine(lesson.options().phase_function()));
+  out.line("mean cosine", fmt::format("{:.5f}", cosine));
+  out.line("mean flight", fmt::format("{:.5f}, of the first; theory 1", lesson.mean_flight()));
+  out.line("scattered", fmt::format("{:.4g} times on the mean", lesson.mean_scatterings()));
+  out.json("samples") = lesson.done();
+  out.json("mean_cosine") = cosine;
+  out.json("mean_flight") = lesson.mean_flight();
+  out.json("mean_scatterings") = lesson.mean_scatterings();
+  plot_tables(out, {{"flights", lesson.flight_plot()}, {"orders", lesson.order_plot()}});
+  return out.done();
+}
+
 LabReport report(const LensLesson& lesson) {
   Writer out("lens");
   out.fields(lens_fields(), lesson.options());
@@ -213,22 +262,7 @@ LabReport report(const LensLesson& lesson) {
   out.json("film_distance") = lens.film_distance();
   out.json("illumination") = lesson.illumination();
   out.json("standard_error") = lesson.illumination_error();
-  for (const auto& [key, plot] :
-       {std::pair{"blur", lesson.blur_plot()}, {"vignetting", lesson.vignetting_plot()}}) {
-    auto& curves = out.json(key);
-    out.text(fmt::format("\n{}\n{:>14}", plot.title, plot.x.label));
-    for (const PlotSeries& series : plot.series) out.text(fmt::format(" {:>14}", series.label));
-    out.text("\n");
-    const std::size_t count = plot.series.front().points.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      out.text(fmt::format("{:>14.4g}", plot.series.front().points[i].x));
-      for (const PlotSeries& series : plot.series) {
-        out.text(fmt::format(" {:>14.5g}", series.points[i].y));
-        curves[series.label].push_back({series.points[i].x, series.points[i].y});
-      }
-      out.text("\n");
-    }
-  }
+  plot_tables(out, {{"blur", lesson.blur_plot()}, {"vignetting", lesson.vignetting_plot()}});
   return out.done();
 }
 

@@ -2,6 +2,7 @@
 // The output of `candela lab`, as text and as JSON.
 
 #include "app/lab/lens_lesson.h"
+#include "app/lab/medium_lesson.h"
 #include "lab/brdf.h"
 #include "lab/experiments.h"
 #include "lab/points.h"
@@ -21,6 +22,7 @@ LabReport report(const Estimation<SolidAngleExperiment>& lesson);
 LabReport report(const Estimation<IntegralExperiment>& lesson);
 LabReport report(const WarpLesson& lesson);
 LabReport report(const BrdfLesson& lesson, const MaterialChoice& material);
+LabReport report(const MediumLesson& lesson);
 LabReport report(const LensLesson& lesson);
 
 /// The points; the text is CSV.

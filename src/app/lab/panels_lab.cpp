@@ -21,6 +21,7 @@ std::unique_ptr<LabPage> make_page(std::string_view lesson_name) {
   if (lesson_name == "integral") return make_integral_page();
   if (lesson_name == "points") return make_points_page();
   if (lesson_name == "warps") return make_warps_page();
+  if (lesson_name == "medium") return make_medium_page();
   if (lesson_name == "lens") return make_lens_page();
   return make_brdf_page();
 }
