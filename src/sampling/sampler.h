@@ -26,6 +26,8 @@ enum class Dimension : std::uint32_t {
   medium_distance,  ///< where in media a ray collides
   medium_direct,    ///< where in media lights are sampled
   medium_pivot,     ///< near which place on which light that is
+  subsurface_probe, ///< which way a ray goes that looks for exit points, and which of them is taken
+  subsurface_point, ///< where it goes
   count
 };
 
