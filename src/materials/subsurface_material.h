@@ -83,7 +83,8 @@ struct SubsurfaceMaterial {
   /// as far as the light below it is diffuse.
   std::optional<HomogeneousMedium> matter() const {
     if (method != static_cast<int>(SubsurfaceMethod::random_walk)) return std::nullopt;
-    const float index = RoughDielectric::is_invisible(ior.value) ? 1 : ior.value;
+    const float index =
+        RoughDielectric::is_invisible(ior.value) ? 1 : std::clamp(ior.value, 1.0f, CoatAlbedo::kMaxEta);
     HomogeneousMedium medium;
     const Spectrum sigma_t = Spectrum(1) / mean_free_path(radius.value, scale.value);
     for (int c = 0; c < 3; ++c) {
