@@ -80,7 +80,6 @@ struct Plastic {
     return 1 - (rough != nullptr ? rough->mean(facets.alpha_x, ior) : diffuse_fresnel_reflectance(ior));
   }
 
-private:
   /// Of the coat, for light from that angle.
   float reflectance(float cosine) const {
     return rough != nullptr ? (*rough)(facets.alpha_x, cosine, ior) : fresnel_dielectric(cosine, ior);
@@ -92,6 +91,7 @@ private:
     return coat > 0 ? coat / (coat + base) : 0;
   }
 
+private:
   BsdfEval above(vec3 wo, vec3 wi, float reflected_o) const {
     const float p = specular_probability(reflected_o), cosine_pdf = wi.z * kInvPi;
     const float passes = (1 - reflected_o) * (1 - reflectance(wi.z)) / mean_transmittance;

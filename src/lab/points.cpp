@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::array kDimensionNames = std::to_array<std::string_view>(
     {"film", "lens", "light_position", "bsdf_lobe", "bsdf_direction", "russian_roulette", "opacity", "time",
-     "medium_distance", "medium_direct", "medium_pivot", "medium_tracking"});
+     "medium_distance", "medium_direct", "medium_pivot", "medium_tracking", "subsurface_probe",
+     "subsurface_point"});
 static_assert(kDimensionNames.size() == static_cast<std::size_t>(Dimension::count),
               "name the new dimension, in Dimension's order");
 

@@ -140,6 +140,13 @@ std::optional<Interior> interior(const MaterialModel& model) {
           if constexpr (requires { m.ior; }) inside.ior = m.ior.value;
           if constexpr (requires { m.priority; }) inside.priority = m.priority;
           return inside;
+        } else if constexpr (requires { m.matter(); }) {
+          std::optional<Interior> inside;
+          if (const std::optional<HomogeneousMedium> matter = m.matter()) {
+            inside.emplace();
+            inside->matter = matter;
+          }
+          return inside;
         } else {
           return std::nullopt;
         }

@@ -2,6 +2,7 @@
 // Materials of every model (materials/material_list.h) and their rows.
 
 #include "materials/material_list.h"
+#include "media/homogeneous_medium.h"
 
 #include <optional>
 #include <string>
@@ -84,6 +85,8 @@ struct Interior {
   float ior = 1;      ///< index of refraction over vacuum or over the outside; of a textured one, its factor
   int priority = 0;   ///< as MediumId has it
   std::string medium{}; ///< Material::medium
+  /// What the model fills it with, with the absorption in it; nothing where `medium` names something.
+  std::optional<HomogeneousMedium> matter{};
 };
 /// Of the model alone; nothing if no light enters the surface.
 std::optional<Interior> interior(const MaterialModel& model);

@@ -19,6 +19,7 @@
 #include "materials/principled_material.h"
 #include "materials/rough_dielectric_material.h"
 #include "materials/sheen_material.h"
+#include "materials/subsurface_material.h"
 #include "materials/thin_dielectric_material.h"
 #include "materials/two_sided_material.h"
 #include "materials/ward_material.h"
@@ -30,7 +31,7 @@ using ScatteringModel =
     std::variant<DiffuseMaterial, PhongMaterial, GgxMaterial, MirrorMaterial, DielectricMaterial,
                  ConductorMaterial, PlasticMaterial, PrincipledMaterial, OpenPbrMaterial,
                  CookTorranceMaterial, OrenNayarMaterial, WardMaterial, RoughDielectricMaterial,
-                 BlinnMaterial, SheenMaterial, ThinDielectricMaterial, HairMaterial>;
+                 BlinnMaterial, SheenMaterial, ThinDielectricMaterial, HairMaterial, SubsurfaceMaterial>;
 
 namespace detail {
 

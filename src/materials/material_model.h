@@ -11,6 +11,8 @@
 //   absorption   sigma_a of the inside, 1/scene unit
 //   ior          index of refraction of the inside (optional)
 //   priority     which body fills the place where several overlap (optional, with ior)
+//
+// or, if the inside is a medium that follows from its values, matter(): that medium, or nothing.
 
 #include "materials/parameter.h"
 

@@ -145,6 +145,7 @@ std::optional<Interior> interior(std::span<const Material* const> materials, std
   if (!materials[i]->medium.empty()) {
     if (!found) found = Interior{};
     found->medium = materials[i]->medium;
+    found->matter.reset();
   }
   return found;
 }

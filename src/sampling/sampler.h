@@ -27,6 +27,8 @@ enum class Dimension : std::uint32_t {
   medium_direct,    ///< where in media lights are sampled
   medium_pivot,     ///< near which place on which light that is
   medium_tracking,  ///< tentative collisions in grids
+  subsurface_probe, ///< which way a ray goes that looks for exit points, and which of them is taken
+  subsurface_point, ///< where it goes
   count
 };
 

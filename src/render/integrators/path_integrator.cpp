@@ -23,6 +23,7 @@ bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
   paths_.clear();
   media_.clear();
   cones_.clear();
+  entries_.clear();
   for (std::uint32_t i = 0; i < starts.size(); ++i) {
     results_[i] = {};
     Path& path = paths_.emplace_back(starts[i]);
@@ -47,6 +48,7 @@ bool PathTracer::trace(std::span<const PathStart> starts, std::span<PathSample> 
     if (depth < last_depth_)
       for (std::size_t begin = 0; begin < arrived_.size(); begin += kLaneCount)
         scatter(begin, std::min(kLaneCount, arrived_.size() - begin), depth, stop);
+    if (!entries_.empty()) leave_subsurface(depth, stop);
     if (stop.asked()) return false;
     std::swap(paths_, next_paths_);
     std::swap(media_, next_media_);
@@ -224,6 +226,7 @@ void PathTracer::make_vertices(std::size_t begin, std::size_t count, int depth) 
     for (std::size_t i = 0; i < count; ++i) cones[i] = cone_of(*arrived_[begin + i]);
   vertices_.set(scene_, {rays.data(), count}, std::span(hits_).subspan(begin, count),
                 {media.data(), media_count}, {cones.data(), scene_.filters_textures() ? count : 0});
+  if (scene_.has_subsurface()) offer_entries(begin);
   if (smooths_terminator_)
     smooth_terminator(vertices_, scene_.geometry(), {rays.data(), count},
                       std::span(hits_).subspan(begin, count));
@@ -355,9 +358,14 @@ void PathTracer::continue_paths() {
     survivors[count] = n;
     count += static_cast<std::size_t>(continuation_.survives[directions_[n].lane]);
   }
-  const bool has_media = scene_.has_media(), filters_textures = scene_.filters_textures();
+  const bool has_media = scene_.has_media(), filters_textures = scene_.filters_textures(),
+             has_subsurface = scene_.has_subsurface();
   for (std::uint32_t n : std::span(survivors.data(), count)) {
     const SampledDirection& direction = directions_[n];
+    if (has_subsurface && enters_subsurface(direction)) {
+      enter_subsurface(direction);
+      continue;
+    }
     const Path& from = *direction.vertex->path;
     const std::uint32_t i = direction.lane;
     Path& path = next_paths_.emplace_back(*direction.sampler);

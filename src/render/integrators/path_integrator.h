@@ -6,6 +6,7 @@
 #include "render/integrators/direct_light.h"
 #include "render/integrators/path_length.h"
 #include "render/integrators/path_sample.h"
+#include "render/integrators/subsurface_probe.h"
 #include "render/integrators/transport.h"
 
 #include <span>
@@ -26,7 +27,8 @@ struct PathStart {
 /// - intersect: the closest hits;
 /// - sample_media: through transparent surfaces and media, to a surface or out of the scene;
 /// - add_environment, for paths that escaped, and add_emission, for those that hit a surface;
-/// - at the surface vertices: sample_lights, then sample_bsdfs, Russian roulette and continuation rays.
+/// - at the surface vertices: sample_lights, then sample_bsdfs, Russian roulette and continuation rays;
+/// - leave_subsurface: the same where light that entered a surface there leaves it, by a diffusion profile.
 /// A stage is a loop over paths that know nothing of each other, so the vector unit makes random numbers and
 /// light samples of several at once, and the processor works on the next one while it waits for this one. On
 /// the Cornell box that was 1.4 times as fast as one path after another; with surfaces, light samples,
@@ -101,6 +103,13 @@ private:
     bool delta;
   };
 
+  /// A path that has entered a surface, in entries_.
+  struct SubsurfaceEntry {
+    Path path;
+    SubsurfacePoint point;
+    Subsurface bsdf;
+  };
+
   // The stages, in their order.
   void intersect(int depth, StopPoll& stop);
   void sample_media(int depth, StopPoll& stop);
@@ -127,6 +136,14 @@ private:
   void add_medium_emission(const Path& path, Spectrum emission, int depth);
   void sample_lights_in_media(int depth, StopPoll& stop);
   void scatter_in_media(int depth, StopPoll& stop);
+  // Of scenes with diffusion profiles, in path_subsurface.cpp:
+  void offer_entries(std::size_t begin);
+  bool enters_subsurface(const SampledDirection& direction) const;
+  void enter_subsurface(const SampledDirection& direction);
+  void leave_subsurface(int depth, StopPoll& stop);
+  void find_exits(int depth, StopPoll& stop);
+  void make_exit_vertices(std::size_t begin, std::size_t count);
+  void sample_lights_at_exits(std::size_t begin, int depth, StopPoll& stop);
   int branches_at(const Path& path, bool specular) const {
     return path.split || specular ? 1 : settings_.split;
   }
@@ -173,6 +190,13 @@ private:
   MediumWay way_;                             ///< of the ray in flight
   std::vector<MediumLightVertex> light_vertices_;
   std::vector<MediumVertex> collisions_; ///< of paths that end in a medium
+
+  std::vector<SubsurfaceEntry> entries_;
+  std::vector<MediumStack> entry_media_; ///< parallel to entries_, as media_ to paths_
+  std::vector<ConeOfRay> entry_cones_;
+  std::vector<SubsurfaceExit> exits_; ///< of paths_, which leave a surface there
+  SubsurfaceProbe probe_;
+  std::size_t first_hit_ = 0; ///< that of the vertices' lane 0, where they are entries
 
   // Of the lanes in flight.
   VertexLanes vertices_;

@@ -31,6 +31,7 @@ std::shared_ptr<const RenderScene> RenderScene::build(const Document& document,
   scene->has_invisible_ = scene->materials_->has_invisible();
   scene->has_priorities_ = scene->materials_->has_priorities();
   scene->filters_textures_ = scene->materials_->filters_textures();
+  scene->has_subsurface_ = scene->materials_->has_subsurface();
   scene->has_media_ = !scene->materials_->media().empty();
   scene->has_active_media_ = scene->materials_->has_scattering() || scene->materials_->has_medium_emission();
   scene->lights_ = SceneLights::of(document, scene->geometry_, scene->materials_,
@@ -60,6 +61,8 @@ void SceneMaterials::add_materials(const Document& document, const MipPyramidSou
     has_invisible_ |= is_null(own);
     has_transparency_ |= is_null(own) || own.opacity.value < 1 || own.opacity.is_textured();
   }
+  for (const SurfaceMaterial& m : materials_)
+    has_subsurface_ |= m.diffuses || (m.back != nullptr && m.back->diffuses);
   add_media(scattering);
 }
 

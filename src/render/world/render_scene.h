@@ -34,6 +34,8 @@ public:
   bool has_passable_surfaces() const { return has_transparency_ || has_priorities_; }
   /// Whether any body is filled with something, so that rays must know where they are.
   bool has_media() const { return has_media_; }
+  /// Whether light may leave any surface away from where it enters it (SurfaceMaterial::diffuses).
+  bool has_subsurface() const { return has_subsurface_; }
   /// Whether any texture is looked up over the footprint of a ray, so that rays must carry cones.
   bool filters_textures() const { return filters_textures_; }
   /// Whether any medium scatters or sends out light, so that more happens between surfaces than absorption.
@@ -85,7 +87,7 @@ private:
   // Of *materials_, where every ray reads them.
   const SurfaceMaterial* surfaces_ = nullptr;
   bool has_transparency_ = false, has_invisible_ = false, has_priorities_ = false, has_media_ = false,
-       has_active_media_ = false, filters_textures_ = false;
+       has_active_media_ = false, filters_textures_ = false, has_subsurface_ = false;
   std::size_t layer_count_ = 0;
 };
 

@@ -14,7 +14,6 @@
 #include "scene/light_layers.h"
 
 #include <map>
-#include <tuple>
 
 namespace candela {
 
@@ -42,6 +41,8 @@ public:
   const std::vector<Medium>& media() const { return media_; }
   /// What fills the places that lie in no body; none: nothing.
   MediumId world_medium() const { return world_medium_; }
+  /// Whether light may leave any surface away from where it enters it.
+  bool has_subsurface() const { return has_subsurface_; }
   bool has_scattering() const { return has_scattering_; }
   bool has_medium_emission() const { return has_emission_; }
   /// Parallel to media(): their index of refraction over vacuum.
@@ -52,7 +53,7 @@ public:
 private:
   void add_materials(const Document& document, const MipPyramidSource& pyramids);
   void add_media(const std::vector<const Material*>& materials);
-  std::uint16_t medium_index(const std::string& name, vec3 absorption, float ior);
+  std::uint16_t medium_index(const Interior& inside, float ior);
 
   // Made of:
   std::vector<Material> source_; ///< with the factors of their groups where these are part of the scene
@@ -64,12 +65,11 @@ private:
 
   std::vector<std::shared_ptr<const MipPyramid>> pyramids_; ///< what materials_ point to
   SurfaceMaterials materials_;
-  bool has_transparency_ = false, has_invisible_ = false, has_priorities_ = false;
+  bool has_transparency_ = false, has_invisible_ = false, has_priorities_ = false, has_subsurface_ = false;
   GridCache grids_;           ///< of media_
   std::vector<Medium> media_; ///< empty where nothing fills anything, or has a priority
   std::vector<float> media_iors_;
-  std::map<std::tuple<std::string, float, float, float, float>, std::uint16_t>
-      known_media_; ///< medium_index()
+  std::map<std::pair<std::string, std::array<float, 7>>, std::uint16_t> known_media_; ///< medium_index()
   MediumId world_medium_;
   bool has_scattering_ = false, has_emission_ = false; ///< any of the media
 };

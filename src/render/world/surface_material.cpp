@@ -179,7 +179,9 @@ void SurfaceMaterials::set_scattering(SurfaceMaterial& out, const Material& mate
     // Of one with textures nobody knows before the hit.
     out.oriented = out.textured != nullptr ? has_tangent(out.bsdf) : is_anisotropic(out.bsdf);
   }
-  out.varies = out.textured != nullptr || out.oriented;
+  const auto* subsurface = std::get_if<Subsurface>(&out.bsdf);
+  out.diffuses = subsurface != nullptr && subsurface->method != SubsurfaceMethod::random_walk;
+  out.varies = out.textured != nullptr || out.oriented || out.diffuses;
   const bool has_relief = side->normal_map.is_textured() || side->bump.is_textured();
   set_relief(out, has_relief ? *side : material, from);
 }

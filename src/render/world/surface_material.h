@@ -67,6 +67,7 @@ struct SurfaceMaterial {
   bool is_textured = false; ///< whether hits look at textures for the BSDF or the shading normal
   bool asks_place = false;  ///< whether a texture of it looks at TexturePoint::place
   bool oriented = false;    ///< whether orient_bsdf() has something to do
+  bool diffuses = false;    ///< its BSDF is a Subsurface that has a diffusion profile
   const TexturedParameter* emission_texture = nullptr;                        ///< emission_at() knows it then
   const TexturedParameter* opacity_texture = nullptr;                         ///< opacity_at(), likewise
   const TexturedParameter *normal_texture = nullptr, *bump_texture = nullptr; ///< for relief_normal()
