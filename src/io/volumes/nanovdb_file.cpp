@@ -24,8 +24,7 @@ struct NanoGrid {
 
 /// Where the parts of its grid are, in bytes.
 struct NanoLayout {
-  static constexpr std::size_t kVersion = 16, kMatrix = 384, kOffset = 528, kClass = 632, kType = 636,
-                               kGrid = 672, kTree = 64;
+  static constexpr std::size_t kVersion = 16, kMatrix = 384, kOffset = 528, kClass = 632, kGrid = 672;
   static constexpr std::size_t kLeaf = 2144, kLower = 33856, kUpper = 270400; ///< sizes of nodes
   static constexpr std::size_t kLeafMask = 16, kLeafValues = 96;
   static constexpr std::size_t kNodeMask =

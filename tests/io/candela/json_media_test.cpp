@@ -86,7 +86,7 @@ TEST(JsonMedia, AGridIsAFileInTheScenesFolder) {
   files.write("fx/smoke.cvol", tiny_volume());
   files.write("s.json", R"({"candela": 1, "media": [
       {"name": "smoke", "type": "grid", "file": "fx/smoke.cvol", "sigma_t": 3, "center": [1, 2, 3], "size": [2, 4, 1]},
-      {"name": "again", "type": "grid", "file": "fx/smoke.cvol"}]})");
+      {"name": "again", "type": "grid", "file": "fx/smoke.cvol"}], "lights": [{}]})");
   const LoadedScene loaded = files.read("s.json");
   EXPECT_EQ(files.warnings(loaded), std::vector<std::string>{});
   const auto& media = loaded.document.scene.media;
