@@ -123,12 +123,31 @@ TEST(MaterialChoice, TheOverrideHasASettingForEachKey) {
 TEST(Material, InsidesAbsorbWhereLightEnters) {
   for (int type = 0; type < kMaterialTypeCount; ++type) {
     Material m = default_material(type);
-    EXPECT_EQ(interior(m.model).has_value(), has(m, "absorption"));
+    EXPECT_EQ(interior(m.model).has_value(),
+              has(m, "absorption") || m.model == MaterialModel(SubsurfaceMaterial()));
   }
   const std::optional<Interior> inside = interior(DielectricMaterial{1.4f, vec3(1), {1, 2, 3}, 7});
   EXPECT_EQ(inside->absorption, vec3(1, 2, 3));
   EXPECT_EQ(inside->ior, 1.4f);
   EXPECT_EQ(inside->priority, 7);
+}
+
+/// What a random walk goes through follows from the colour and the mean free path; profiles fill no body.
+TEST(Material, ARandomWalkHasAMedium) {
+  SubsurfaceMaterial walk{.color = vec3(1, 0.5f, 0), .radius = vec3(0.5f, 1, 2), .scale = 0.5f, .ior = 1.0f};
+  const std::optional<Interior> inside = interior(walk);
+  ASSERT_TRUE(inside && inside->matter);
+  const Spectrum sigma_t = inside->matter->sigma_t();
+  EXPECT_NEAR(sigma_t.x, 4, 1e-5f);
+  EXPECT_NEAR(sigma_t.y, 2, 1e-5f);
+  EXPECT_NEAR(sigma_t.z, 1, 1e-5f);
+  EXPECT_EQ(inside->matter->sigma_a.x, 0);
+  EXPECT_NEAR(inside->matter->sigma_s.y, 2 * single_scattering_albedo(0.5f), 1e-5f);
+  EXPECT_NEAR(inside->matter->sigma_s.z, 0, 1e-5f);
+  for (const SubsurfaceMethod method : {SubsurfaceMethod::burley, SubsurfaceMethod::dipole}) {
+    walk.method = static_cast<int>(method);
+    EXPECT_FALSE(interior(walk));
+  }
 }
 
 } // namespace
