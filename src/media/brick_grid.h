@@ -20,6 +20,9 @@ struct BrickBounds {
 class BrickGrid {
 public:
   static constexpr int kSide = 8; ///< cells
+  /// Tentative collisions of a ray in a brick, at most, so that all tracking ends whatever the extinction:
+  /// where none of so many is real, the rest of the brick is taken for empty.
+  static constexpr int kMostCollisions = 4096;
 
   explicit BrickGrid(const VolumeGrid& grid);
 

@@ -38,6 +38,7 @@ T value_in_grid(const VolumeGrid& grid, const std::vector<T>& values, vec3 cell)
 
 /// Where next to nothing comes through, a share of the estimates goes on, with its inverse for a weight.
 constexpr float kFaint = 0.01f, kSurvival = 0.25f;
+constexpr int kCollisionsPerCheck = 8;
 
 } // namespace
 
@@ -113,7 +114,17 @@ Spectrum GridMedium::track_transmittance(vec3 origin, vec3 direction, float begi
     if (ended) return mean_depth != nullptr;
     const float control = residual ? bounds.mean : 0;
     const float majorant = strongest * (residual ? bounds.spread : bounds.most);
-    for (float t = first; majorant > 0;) {
+    // Where hardly anything is left it is decided at random whether to go on.
+    auto goes_on = [&](float t) {
+      const Spectrum known = (known_depth + strongest * control * (t - first)) * relative;
+      const float so_far = max_component(glm::abs(passes) * glm::exp(-known));
+      if (so_far >= kFaint) return true;
+      ended = !(so_far > 0) || random.next() >= kSurvival;
+      passes = ended ? Spectrum(0) : passes / kSurvival;
+      return !ended;
+    };
+    float t = first;
+    for (int collision = 1; majorant > 0 && collision <= BrickGrid::kMostCollisions; ++collision) {
       const float step = left / majorant;
       if (!(t + step < last)) {
         left = std::max(left - majorant * (last - t), 0.0f);
@@ -123,13 +134,9 @@ Spectrum GridMedium::track_transmittance(vec3 origin, vec3 direction, float begi
       left = random.next_depth();
       const float density = bricks->density(brick, from + t * along);
       passes *= 1.0f - relative * ((density - control) * strongest / majorant);
+      if (collision % kCollisionsPerCheck == 0 && !goes_on(t)) break;
     }
-    known_depth += strongest * control * (last - first);
-    const float so_far = max_component(glm::abs(passes) * glm::exp(-known_depth * relative));
-    if (so_far < kFaint) {
-      ended = !(so_far > 0) || random.next() >= kSurvival;
-      passes = ended ? Spectrum(0) : passes / kSurvival;
-    }
+    if (!ended && goes_on(last)) known_depth += strongest * control * (last - first);
     return !ended || mean_depth != nullptr;
   });
   return passes * glm::exp(-known_depth * relative);

@@ -81,7 +81,8 @@ TEST_P(ProceduralGrids, MoreCoverageIsMoreMatter) {
     ProceduralGrid desc = small(GetParam());
     desc.coverage = coverage;
     double sum = 0;
-    for (float d : make_procedural_grid(desc)->density) sum += static_cast<double>(d);
+    const auto grid = make_procedural_grid(desc);
+    for (float d : grid->density) sum += static_cast<double>(d);
     EXPECT_GT(sum, before) << coverage;
     before = sum;
   }

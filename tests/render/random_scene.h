@@ -3,6 +3,7 @@
 
 #include "render/render_testing.h"
 #include "support/textures.h"
+#include "support/volumes.h"
 
 #include <random>
 
@@ -77,7 +78,12 @@ private:
     }
     case FieldType::real: *static_cast<float*>(address) = value_of(row); break;
     case FieldType::angle: *static_cast<float*>(address) = radians(value_of(row)); break;
-    case FieldType::point: *static_cast<vec3*>(address) = one_in(4) ? direction() : point(3); break;
+    case FieldType::point: {
+      vec3& place = *static_cast<vec3*>(address);
+      place = one_in(4) ? direction() : point(3);
+      if (row.minimum >= 0) place = glm::max(glm::abs(place), vec3(static_cast<float>(row.minimum)));
+      break;
+    }
     case FieldType::color: {
       vec3& color = *static_cast<vec3*>(address);
       const FieldInfo within = limited_color(row);
@@ -129,6 +135,13 @@ private:
     for (const Field<MediumDesc>& row : medium_fields(m))
       if (row.key != "emission" || one_in(4)) randomise(row, row.address(m));
     for (const Field<PhaseDesc>& row : phase_fields(m.phase)) randomise(row, row.address(m.phase));
+    if (auto* made = std::get_if<ProceduralMediumModel>(&m.model)) made->resolution = 16 + pick(9);
+    if (takes_grid(m) && !one_in(8)) {
+      VolumeGrid grid = random_grid({1 + pick(20), 1 + pick(20), 1 + pick(20)}, random_());
+      if (one_in(2)) grid.temperature = grid.density;
+      if (one_in(2)) grid.color.assign(grid.density.size(), vec3(0.3f, 0.8f, 1));
+      set_medium_grid(m, std::make_shared<const VolumeGrid>(std::move(grid)));
+    }
     return m;
   }
   std::string any_medium() {

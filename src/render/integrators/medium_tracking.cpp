@@ -106,8 +106,10 @@ bool RayTracking::follow_brick(const MediumSegment& segment, const GridMedium& m
   // Emission is looked for at one place of each brick, however thin it is.
   float shines_at = medium.emits() ? first + random.next() * (last - first) : kInfinity;
   auto known = [&](float t) { return glm::exp(-control * (t - first) * medium.density_sigma_t); };
-  for (float t = first;;) {
-    const float next = majorant > 0 ? t + left / majorant : kInfinity;
+  float t = first;
+  for (int collisions = 0;; ++collisions) {
+    const bool may_collide = majorant > 0 && collisions < BrickGrid::kMostCollisions;
+    const float next = may_collide ? t + left / majorant : kInfinity;
     if (shines_at < std::min(next, last)) {
       const vec3 cell = cell_at(segment, medium, shines_at);
       const Spectrum sigma_t = medium.bricks->density(brick, cell) * medium.density_sigma_t;

@@ -195,9 +195,7 @@ TEST(MediumTrackingStatistical, FaintLightIsNotLost) {
       const TransmittanceEstimate estimate =
           transmittance({kOrigin, 0, 2.0f * kDirection, kInfinity}, 4, medium, own);
       found.add(static_cast<double>(estimate.value.x));
-      if (i == 0) {
-        EXPECT_NEAR(std::log(estimate.expected.x), -depth, 0.3 * depth);
-      }
+      if (i == 0) { EXPECT_NEAR(std::log(estimate.expected.x), -depth, 0.3 * depth); }
     }
     expect_mean(found, std::exp(-depth), 2, "faint");
   }
