@@ -63,6 +63,7 @@ TEST(DirectionSampling, StrategiesCoverBothSidesOfWhatTransmitsWithADensity) {
         for (int i = 0; i < kCount; ++i) {
           const BsdfU u = random.three();
           const vec3 wi = detail::strategy_direction(wo, u.disc, u.lobe, how, both_sides);
+          if (wi.z == 0) continue; // by rounding: sample_direction() drops it
           ASSERT_GT(pdf(wi), 0);
           estimate += double(sqr(wi.z)) / kCount;
           behind += !same_hemisphere(wo, wi);

@@ -231,7 +231,7 @@ MUTANTS = [
     ("media/medium_desc.cpp", "* medium.cells_per_unit + 0.5f;", "* medium.cells_per_unit;", "half a cell off"),
     ("render/integrators/medium_tracking.cpp", "glm::dot(density_of_channels, sigma_t * at)", "glm::dot(density_of_channels, at)", "density of the fog without its extinction"),
     ("render/integrators/medium_tracking.cpp", "contribution * real * medium.albedo_at(cell), pdf", "contribution * real, pdf", "no absorption at collisions"),
-    ("render/integrators/medium_tracking.cpp", "if (residual) contribution *= known(last);", "", "the known part left out"),
+    ("render/integrators/medium_tracking.cpp", "      apply_known(last);", "", "the known part left out"),
     ("render/integrators/medium_tracking.cpp", "density_of_channels *= passes;\n    const float scale", "const float scale", "null collisions without their probability"),
     ("render/integrators/path_media.cpp", "throughput *= track_transmittance(way_, point->distance, random);", "", "light of the far side as if there were no cloud"),
     ("render/integrators/path_media.cpp", "path.throughput *= tracked.weight;", "", "weight of what comes through"),

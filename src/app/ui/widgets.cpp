@@ -222,7 +222,7 @@ bool Ui::choice_widget(const std::string& name, int& value, std::span<const std:
   bool changed = false;
   const std::string current(choices[static_cast<std::size_t>(value)]);
   const bool open =
-      ImGui::BeginCombo(fmt::format("##{}", name).c_str(), current.c_str(), ImGuiComboFlags_HeightLarge);
+      ImGui::BeginCombo(fmt::format("##{}", name).c_str(), current.c_str(), ImGuiComboFlags_HeightLargest);
   // If the popup is open, BeginCombo has begun its window, so the combo's rectangle must be taken before.
   if (!open) {
     record(name);

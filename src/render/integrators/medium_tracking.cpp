@@ -105,7 +105,12 @@ bool RayTracking::follow_brick(const MediumSegment& segment, const GridMedium& m
   const float majorant = (residual ? bounds.spread : bounds.most) * max_component(medium.density_sigma_t);
   // Emission is looked for at one place of each brick, however thin it is.
   float shines_at = medium.emits() ? first + random.next() * (last - first) : kInfinity;
-  auto known = [&](float t) { return glm::exp(-control * (t - first) * medium.density_sigma_t); };
+  // What the mean takes, step by step: of much matter at once the product below could overflow.
+  float known_to = first;
+  auto apply_known = [&](float to) {
+    if (residual) contribution *= glm::exp(-control * (to - known_to) * medium.density_sigma_t);
+    known_to = to;
+  };
   float t = first;
   for (int collisions = 0;; ++collisions) {
     const bool may_collide = majorant > 0 && collisions < BrickGrid::kMostCollisions;
@@ -113,13 +118,14 @@ bool RayTracking::follow_brick(const MediumSegment& segment, const GridMedium& m
     if (shines_at < std::min(next, last)) {
       const vec3 cell = cell_at(segment, medium, shines_at);
       const Spectrum sigma_t = medium.bricks->density(brick, cell) * medium.density_sigma_t;
-      out.emitted += weight() * known(shines_at) * absorbed_to(segment, medium, shines_at) *
-                     medium.emitted_at(cell, sigma_t) * (last - first);
+      apply_known(shines_at);
+      out.emitted += weight() * absorbed_to(segment, medium, shines_at) * medium.emitted_at(cell, sigma_t) *
+                     (last - first);
       shines_at = kInfinity;
     }
     if (!(next < last)) {
       left = std::max(left - majorant * (last - t), 0.0f);
-      if (residual) contribution *= known(last);
+      apply_known(last);
       return true;
     }
     t = next;
@@ -128,6 +134,7 @@ bool RayTracking::follow_brick(const MediumSegment& segment, const GridMedium& m
     const float density = medium.bricks->density(brick, cell);
     const Spectrum real = (density - control) / majorant * medium.density_sigma_t;
     if (estimates) {
+      apply_known(t);
       contribution *= 1.0f - glm::min(real, Spectrum(1));
       if (!(max_component(glm::abs(contribution)) > 0)) return false;
       continue;

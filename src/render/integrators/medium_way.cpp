@@ -44,8 +44,12 @@ int choose_channel(Spectrum channels, float& u) {
     }
     u -= channels[c];
   }
-  u = std::min(u / channels.z, kOneMinusEpsilon);
-  return 2;
+  for (int c = 2; c > 0; --c) // by rounding u may be left for a channel that has no share
+    if (channels[c] > 0) {
+      u = std::clamp(u / channels[c], 0.0f, kOneMinusEpsilon);
+      return c;
+    }
+  return 0;
 }
 
 void MediumWay::start(vec3 direction) {

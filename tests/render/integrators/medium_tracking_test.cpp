@@ -201,6 +201,26 @@ TEST(MediumTrackingStatistical, FaintLightIsNotLost) {
   }
 }
 
+/// So much matter that factors of the estimate alone are no floats any more.
+TEST(MediumTracking, NothingOverflowsInDenseMatter) {
+  MediumDesc desc = grid_desc(random_grid({20, 20, 20}, 9), {3e3f, 0, 5e3f}, vec3(0.3f));
+  desc.emission = vec3(9);
+  for (const TransmittanceEstimator estimator : kEstimators)
+    for (const bool collides : {false, true}) {
+      const Medium medium = make_medium(desc, {Spectrum(0), estimator});
+      MediumWay way;
+      way.start(kDirection);
+      way.add(kOrigin, 9, {}, &medium);
+      std::mt19937_64 engine(4);
+      for (int i = 0; i < 200; ++i) {
+        TrackingRandom random = random_of(engine);
+        const TrackedWay tracked = track(way, kMixture, collides, random);
+        const Spectrum sum = tracked.weight + tracked.emitted + track_transmittance(way, 9, random);
+        EXPECT_TRUE(std::isfinite(sum.x + sum.y + sum.z)) << sum.x << " " << sum.y << " " << sum.z;
+      }
+    }
+}
+
 /// A grid that is the same everywhere is known as if it were no grid.
 TEST(MediumTracking, AUniformGridHasNoVariance) {
   VolumeGrid grid = random_grid({20, 20, 20}, 1);
