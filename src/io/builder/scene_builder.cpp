@@ -214,10 +214,16 @@ Bounds3 object_bounds(const Shape& shape) { return shape_bounds(shape); }
 Bounds3 scene_bounds(const SceneDesc& scene) { return instance_bounds(scene.instances); }
 
 bool has_light(const SceneDesc& scene) {
-  auto shines = [&](int material) {
-    return !is_black(scene.materials[static_cast<std::size_t>(material)].emission.value);
+  auto glows = [&](const std::string& medium) {
+    const auto known = std::ranges::find(scene.media, medium, &MediumDesc::name);
+    return known != scene.media.end() && !is_black(known->emission);
   };
-  return std::ranges::any_of(scene.lights,
+  auto shines = [&](int index) {
+    const Material& material = scene.materials[static_cast<std::size_t>(index)];
+    return !is_black(material.emission.value) || glows(material.medium);
+  };
+  return glows(scene.medium) ||
+         std::ranges::any_of(scene.lights,
                              [](const LightDesc& l) { return l.scale > 0 && !is_black(l.color); }) ||
          std::ranges::any_of(scene.instances,
                              [&](const Instance& i) { return std::ranges::any_of(i.materials, shines); });

@@ -31,6 +31,20 @@ TEST(JsonMedia, AreReadByName) {
   EXPECT_EQ(scene.materials[0].medium, "milk");
 }
 
+/// A fire is a light: nobody is told that the picture will be black.
+TEST(JsonMedia, WhatGlowsIsLight) {
+  SceneFiles files;
+  const auto warnings = [&](const std::string& rest) {
+    files.write("s.json", R"({"candela": 1, "media": [{"name": "fire", "emission": 3}],
+      "materials": [{"name": "hull", "type": "null", "medium": "fire"}, {"name": "wall"}], )" +
+                              rest + "}");
+    return files.read("s.json").warnings.size();
+  };
+  EXPECT_EQ(warnings(R"("medium": "fire")"), 0u);
+  EXPECT_EQ(warnings(R"("instances": [{"shape": "sphere", "material": "hull"}])"), 0u);
+  EXPECT_EQ(warnings(R"("instances": [{"shape": "sphere", "material": "wall"}])"), 1u);
+}
+
 TEST(JsonMedia, AreWrittenAsTheyAre) {
   SceneFiles files;
   for (int type = 0; type < static_cast<int>(medium_type_field().choices.size()); ++type)
