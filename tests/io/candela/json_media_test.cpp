@@ -35,14 +35,15 @@ TEST(JsonMedia, AreReadByName) {
 TEST(JsonMedia, WhatGlowsIsLight) {
   SceneFiles files;
   const auto warnings = [&](const std::string& rest) {
-    files.write("s.json", R"({"candela": 1, "media": [{"name": "fire", "emission": 3}],
-      "materials": [{"name": "hull", "type": "null", "medium": "fire"}, {"name": "wall"}], )" +
-                              rest + "}");
+    std::string text = R"({"candela": 1, "media": [{"name": "fire", "emission": 3}],
+      "materials": [{"name": "hull", "type": "null", "medium": "fire"}, {"name": "wall"}], )";
+    text += rest;
+    files.write("s.json", text);
     return files.read("s.json").warnings.size();
   };
-  EXPECT_EQ(warnings(R"("medium": "fire")"), 0u);
-  EXPECT_EQ(warnings(R"("instances": [{"shape": "sphere", "material": "hull"}])"), 0u);
-  EXPECT_EQ(warnings(R"("instances": [{"shape": "sphere", "material": "wall"}])"), 1u);
+  EXPECT_EQ(warnings(R"("medium": "fire"})"), 0u);
+  EXPECT_EQ(warnings(R"("instances": [{"shape": "sphere", "material": "hull"}]})"), 0u);
+  EXPECT_EQ(warnings(R"("instances": [{"shape": "sphere", "material": "wall"}]})"), 1u);
 }
 
 TEST(JsonMedia, AreWrittenAsTheyAre) {

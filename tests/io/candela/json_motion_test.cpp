@@ -65,7 +65,7 @@ TEST_F(JsonMotion, IsWrittenAndReadBackToTheSameBits) {
     d.scene.instances.push_back(
         {"a", SphereShape{real()}, mat4(1), {0}, {vector(), vector(), real(), vector(), vector()}});
     Mesh mesh;
-    mesh.name = "m";
+    mesh.name = std::string("m");
     for (int i = 0; i < 3; ++i) {
       mesh.positions.push_back(vector()), mesh.positions_end.push_back(vector());
       if (round % 2 == 0) continue;
