@@ -1,4 +1,5 @@
 #include "media/brick_grid.h"
+#include "media/medium_desc.h"
 #include "support/volumes.h"
 
 #include <gtest/gtest.h>
@@ -107,6 +108,34 @@ TEST(BrickGrid, MeansAreThoseOfTheVolume) {
     EXPECT_NEAR(static_cast<double>(bricks.bounds(brick).mean), sum / (n * n * n), 1e-4);
     return true;
   });
+}
+
+/// Also where nearly all of it is dense, and little is far below the mean.
+TEST(BrickGrid, SpreadsHoldOnBothSides) {
+  VolumeGrid grid = random_grid({9, 9, 9}, 1);
+  std::ranges::fill(grid.density, 1.0f);
+  grid.density[cell_index(grid, 4, 4, 4)] = 0;
+  const BrickGrid bricks(grid);
+  bricks.walk({0, 4, 4}, {1, 0, 0}, 0, 8, [&](const BrickGrid::Place& brick, float, float) {
+    const BrickBounds& bounds = bricks.bounds(brick);
+    EXPECT_GE(bounds.spread, bounds.mean - bricks.density(brick, vec3(4)));
+    return true;
+  });
+}
+
+/// The faces of a medium's box are half a cell off the outermost centres.
+TEST(GridMedium, ItsBoxIsThatOfTheDescription) {
+  MediumDesc desc;
+  GridMediumModel model;
+  model.center = {1, 2, 3}, model.size = {2, 4, 8};
+  model.grid = std::make_shared<const VolumeGrid>(random_grid({5, 6, 7}, 1));
+  desc.model = model;
+  const Medium made = make_medium(desc);
+  const auto& medium = std::get<GridMedium>(made);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(medium.to_cells({0, 0, -1})[axis], -0.5f, 1e-5f);
+    EXPECT_NEAR(medium.to_cells({2, 4, 7})[axis], static_cast<float>(model.grid->cells[axis]) - 0.5f, 1e-5f);
+  }
 }
 
 TEST(BrickGrid, UniformBricksTakeNoMemoryAndVaryByNothing) {
