@@ -36,7 +36,8 @@ T value_in_grid(const VolumeGrid& grid, const std::vector<T>& values, vec3 cell)
   return glm::mix(plane(low.z), plane(high.z), f.z);
 }
 
-/// Where next to nothing comes through, a share of the estimates goes on, with its inverse for a weight.
+/// Where next to nothing comes through, a share of the estimates survives, with its inverse for a weight
+/// (Russian roulette).
 constexpr float kFaint = 0.01f, kSurvival = 0.25f;
 constexpr int kCollisionsPerCheck = 8;
 
@@ -114,8 +115,8 @@ Spectrum GridMedium::track_transmittance(vec3 origin, vec3 direction, float begi
     if (ended) return mean_depth != nullptr;
     const float control = residual ? bounds.mean : 0;
     const float majorant = strongest * (residual ? bounds.spread : bounds.most);
-    // Where hardly anything is left it is decided at random whether to go on.
-    auto goes_on = [&](float t) {
+    // Russian roulette, where hardly anything is left.
+    auto survives = [&](float t) {
       const Spectrum known = (known_depth + strongest * control * (t - first)) * relative;
       const float so_far = max_component(glm::abs(passes) * glm::exp(-known));
       if (so_far >= kFaint) return true;
@@ -134,9 +135,9 @@ Spectrum GridMedium::track_transmittance(vec3 origin, vec3 direction, float begi
       left = random.next_depth();
       const float density = bricks->density(brick, from + t * along);
       passes *= 1.0f - relative * ((density - control) * strongest / majorant);
-      if (collision % kCollisionsPerCheck == 0 && !goes_on(t)) break;
+      if (collision % kCollisionsPerCheck == 0 && !survives(t)) break;
     }
-    if (!ended && goes_on(last)) known_depth += strongest * control * (last - first);
+    if (!ended && survives(last)) known_depth += strongest * control * (last - first);
     return !ended || mean_depth != nullptr;
   });
   return passes * glm::exp(-known_depth * relative);

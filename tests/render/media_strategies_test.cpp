@@ -5,21 +5,6 @@
 namespace candela::test {
 namespace {
 
-/// The sum over all pixels, and its variance.
-struct Sum {
-  glm::dvec3 value{0}, variance{0};
-};
-Sum sum_of(const Document& document) {
-  const Film film = render(document);
-  Sum sum;
-  for (int y = 0; y < film.height(); ++y)
-    for (int x = 0; x < film.width(); ++x) {
-      sum.value += glm::dvec3(film.mean(x, y));
-      sum.variance += glm::dvec3(film.variance_of_mean(x, y));
-    }
-  return sum;
-}
-
 void expect_strategies_agree(int spp, double tolerance, bool cloudy) {
   struct Variation {
     const char* name;
@@ -46,13 +31,13 @@ void expect_strategies_agree(int spp, double tolerance, bool cloudy) {
   };
   SceneMaker s = foggy_room(12, spp, cloudy);
   s.document.settings.path.max_depth = 12;
-  std::vector<Sum> sums;
+  std::vector<RenderedSum> sums;
   for (const Variation& v : variations) {
     Document document = s.document;
     v.apply(document.settings.path);
     document.settings.sampler.seed = sampler_seed(sums.size() + (cloudy ? 20 : 0));
     sums.push_back(sum_of(document));
-    const Sum &own = sums.back(), &first = sums.front();
+    const RenderedSum &own = sums.back(), &first = sums.front();
     for (int c = 0; c < 3; ++c) {
       const double deviation = std::sqrt(own.variance[c] + first.variance[c]);
       EXPECT_GT(normal_p_value((own.value[c] - first.value[c]) / deviation),
@@ -73,15 +58,15 @@ TEST(MediaHeavy, StrategiesAgreeAmongClouds) { expect_strategies_agree(10000, 0.
 TEST(MediaStatistical, TheLengthsOfPathsAddUp) {
   SceneMaker s = foggy_room(8, 512);
   s.document.settings.path.max_depth = 4;
-  const Sum all = [&] {
+  const RenderedSum all = [&] {
     s.document.settings.sampler.seed = sampler_seed(50);
     return sum_of(s.document);
   }();
-  Sum parts;
+  RenderedSum parts;
   for (int depth = 1; depth <= 4; ++depth) {
     s.document.settings.path.only_depth = depth;
     s.document.settings.sampler.seed = sampler_seed(50 + static_cast<std::uint64_t>(depth));
-    const Sum part = sum_of(s.document);
+    const RenderedSum part = sum_of(s.document);
     parts.value += part.value, parts.variance += part.variance;
   }
   for (int c = 0; c < 3; ++c)

@@ -53,6 +53,21 @@ inline void add_directional(SceneMaker& s, vec3 direction, vec3 irradiance) {
   s.document.scene.lights.push_back(sun);
 }
 
+/// The sum over all pixels, and its variance.
+struct RenderedSum {
+  glm::dvec3 value{0}, variance{0};
+};
+inline RenderedSum sum_of(const Document& document) {
+  const Film film = render(document);
+  RenderedSum sum;
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x) {
+      sum.value += glm::dvec3(film.mean(x, y));
+      sum.variance += glm::dvec3(film.variance_of_mean(x, y));
+    }
+  return sum;
+}
+
 /// A floor and a wall in a great ball of coloured fog, with a ball of denser smoke, a lamp with an area, a
 /// directional light and a sky, a glossy ball and a ball of glass with milk in it; if `cloudy`, with a cloud
 /// and a thin plume of grids. No point light: where

@@ -219,22 +219,19 @@ TEST(SubsurfaceStatistical, StrategiesAgree) {
     s.camera({0, 0, 4}, {0, 0, 0}, 40);
     s.document.settings.sampler.type = SamplerType::independent;
     s.document.settings.path.max_depth = 6;
-    std::vector<glm::dvec2> sums; // value and variance of the green channel
+    std::vector<RenderedSum> sums;
     for (const Variation& v : variations) {
       Document document = s.document;
       v.apply(document.settings.path);
       document.settings.sampler.seed =
           sampler_seed(200 + sums.size() + 50 * static_cast<std::uint64_t>(method));
-      const Film film = render(document);
-      glm::dvec2 sum(0);
-      for (int y = 0; y < film.height(); ++y)
-        for (int x = 0; x < film.width(); ++x)
-          sum += glm::dvec2(film.mean(x, y).y, film.variance_of_mean(x, y).y);
-      sums.push_back(sum);
-      const double deviation = std::sqrt(sum.y + sums[0].y);
-      EXPECT_LT(deviation, 0.03 * sum.x) << v.name << ": too few samples to tell";
-      EXPECT_GT(normal_p_value((sum.x - sums[0].x) / deviation), sidak_threshold(2 * count))
-          << v.name << ": " << sum.x << " against " << sums[0].x << ", " << deviation << "; " << seed_note();
+      sums.push_back(sum_of(document));
+      const RenderedSum &own = sums.back(), &first = sums.front();
+      const double deviation = std::sqrt(own.variance.y + first.variance.y);
+      EXPECT_LT(deviation, 0.03 * own.value.y) << v.name << ": too few samples to tell";
+      EXPECT_GT(normal_p_value((own.value.y - first.value.y) / deviation), sidak_threshold(2 * count))
+          << v.name << ": " << own.value.y << " against " << first.value.y << ", " << deviation << "; "
+          << seed_note();
     }
   }
 }

@@ -44,7 +44,7 @@ struct RayTracking {
   float left = 0; ///< of the optical depth to the next tentative collision in grids
 };
 
-// Whether the path goes on behind:
+// Whether the path continues behind the segment or brick:
 
 bool RayTracking::follow(const MediumSegment& segment, const HomogeneousMedium& medium) {
   const float length = segment.end - segment.begin;
@@ -160,9 +160,9 @@ TrackedWay track(const MediumWay& way, Spectrum channels, bool collides, Trackin
   RayTracking tracking{way, collides, random, channels};
   for (const MediumSegment& segment : way.segments()) {
     if (segment.medium == nullptr) continue;
-    const bool goes_on =
+    const bool continues =
         visit_variant([&](const auto& medium) { return tracking.follow(segment, medium); }, *segment.medium);
-    if (goes_on) continue;
+    if (continues) continue;
     if (!tracking.out.collision) tracking.contribution = Spectrum(0);
     break;
   }

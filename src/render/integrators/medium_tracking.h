@@ -2,11 +2,12 @@
 // Where paths collide in media that are not the same everywhere: delta tracking with the bricks' majorants.
 //
 // Tentative collisions lie as thick as if a brick were everywhere as dense as at its densest place. One is
-// real with the probability extinction / majorant; else it is a null collision, and the ray goes on (Woodcock
-// et al. 1965). One ray carries all channels: with f, the contribution of what has happened so far, and q,
-// its density as each channel alone would have it, both per channel, the weight is f over the mixture of q by
-// the channels' probabilities (Miller, Georgiev & Jarosz 2019, "A Null-Scattering Path Integral Formulation
-// of Light Transport", section 5). Media without grids on the same ray take their part in closed form.
+// real with the probability extinction / majorant; else it is a null collision, and the ray continues
+// (Woodcock et al. 1965). One ray carries all channels: with f, the contribution of what has happened so far,
+// and q, its density as each channel alone would have it, both per channel, the weight is f over the mixture
+// of q by the channels' probabilities (Miller, Georgiev & Jarosz 2019, "A Null-Scattering Path Integral
+// Formulation of Light Transport", section 5). Media without grids on the same ray take their part in closed
+// form.
 
 #include "render/integrators/medium_way.h"
 
