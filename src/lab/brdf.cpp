@@ -20,8 +20,11 @@ const Field<BrdfOptions> kBrdfFields[] = {
 std::span<const Field<BrdfOptions>> brdf_fields() { return kBrdfFields; }
 
 vec2 direction_chart(vec3 w) {
+  constexpr float kBelowHalf = 0.5f - 0x1p-25f; // the last row above the surface
   const float turns = std::atan2(w.y, w.x) * (0.5f * kInvPi);
-  return {turns < 0 ? turns + 1 : turns, std::atan2(std::sqrt(sqr(w.x) + sqr(w.y)), w.z) * kInvPi};
+  const float theta = std::atan2(std::sqrt(sqr(w.x) + sqr(w.y)), w.z) * kInvPi;
+  // A grazing direction's angle rounds to 90 degrees: it must not change its side.
+  return {turns < 0 ? turns + 1 : turns, w.z > 0 ? std::min(theta, kBelowHalf) : std::max(theta, 0.5f)};
 }
 
 vec3 direction_from_chart(vec2 q) {

@@ -89,5 +89,12 @@ TEST(BrdfLesson, TheChartInverts) {
     }
 }
 
+TEST(BrdfLesson, TheChartKeepsGrazingDirectionsOnTheirSide) {
+  for (float z : {1e-6f, 3e-8f, 1e-8f, 1e-20f}) {
+    EXPECT_LT(direction_chart({0.6f, 0.8f, z}).y, 0.5f) << z;
+    EXPECT_GE(direction_chart({0.6f, 0.8f, -z}).y, 0.5f) << z;
+  }
+}
+
 } // namespace
 } // namespace candela::test
